@@ -6,8 +6,10 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
 
 #include <atomic>
 #include <chrono>
@@ -21,7 +23,7 @@
 #include "builder/import/import.h"
 #include "io/dag/layers/layer_index.h"
 #include "io/dag/occupied_bounds.h"
-#include "io/pack/unpack.h"
+#include "io/dag/open_dag.h"
 #include "python/queries.h"
 #include "streaming/file/checksum.h"
 #include "streaming/process/interrupt.h"
@@ -38,7 +40,7 @@ template <class T>
 using Rows = nb::ndarray<const T, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 using Corner = std::array<int64_t, 3>;
 
-// The thread that imports the module: Python handles signals in its main thread alone.
+// The thread that imports the module: Python handles signals only in its main thread.
 const std::thread::id kMainThread = std::this_thread::get_id();
 
 // Runs work() and returns when it is done. A signal that Python handles with an exception, such as
@@ -109,9 +111,16 @@ VoxelBox box_of(const Corner& low, const Corner& high) {
 
 class PyFile {
  public:
-  explicit PyFile(const nb::bytes& path) {
+  // `level`, `bounds`: None, or what --level and --bounds take.
+  PyFile(const nb::bytes& path, const std::vector<nb::bytes>& layers, std::optional<int> level,
+         const std::optional<std::array<double, 6>>& bounds) {
     const std::string name = string_of(path);
-    interruptible([&] { file_.emplace(open_dag(name)); });
+    Selection selection;
+    for (const nb::bytes& layer : layers) selection.layers.push_back(string_of(layer));
+    selection.level = level;
+    if (const auto& b = bounds)
+      selection.bounds = Box{{(*b)[0], (*b)[1], (*b)[2]}, {(*b)[3], (*b)[4], (*b)[5]}};
+    interruptible([&] { file_.emplace(open_dag(name, selection)); });
     executor_ = std::make_unique<ParallelExecutor>(available_processors());
   }
 
@@ -346,7 +355,9 @@ NB_MODULE(_svdag, m) {
   nb::object error = nb::module_::import_("svdag._error").attr("Error");
   nb::register_exception_translator(translate, error.release().ptr());  // kept for good
   nb::class_<PyFile>(m, "File")
-      .def(nb::init<const nb::bytes&>())
+      .def(nb::init<const nb::bytes&, const std::vector<nb::bytes>&, std::optional<int>,
+                    const std::optional<std::array<double, 6>>&>(),
+           nb::arg("path"), nb::arg("layers"), nb::arg("level").none(), nb::arg("bounds").none())
       .def("info", &PyFile::info)
       .def("window", &PyFile::window)
       .def("coords", &PyFile::coords)

@@ -19,7 +19,7 @@ SCENE = ["io/scene/mesh", "io/scene/polygons", "io/scene/decoders", "io/scene/re
 FORMATS = ["io/formats", "io/formats/dags", "io/formats/voxels", "io/formats/vdb"]
 PHASES = ["builder/octree", "builder/overlap", "builder/overlap/kernels", "builder/winding", "builder/workspace", "builder/reduce",
           "builder/descend", "builder/split", "builder/run", "builder/merge"]
-DAG = ["io/dag", "io/dag/layers", "io/dag/compact"]
+DAG = ["io/dag", "io/dag/layers", "io/dag/compact", "io/dag/pack", "io/dag/graph"]
 BAKE = STREAMING + ["io", *DAG] + SCENE + PHASES + ["builder/cache", "builder"]
 VERIFY = ["verify/integrity", "verify/judge", "verify/sample", "verify/compare", "verify/view", "verify/report"]
 TRACE = ["verify/trace/kernel", "verify/trace", "verify/trace/judge", "verify/trace/program"]
@@ -40,7 +40,6 @@ ALLOWED = {
     "io/scene/gltf": STREAMING + ["io", "io/scene/mesh", "io/scene/decoders", "io/scene/readers"],
     "io/scene": STREAMING + ["io", *DAG] + SCENE,
     **{room: STREAMING + ["io", *DAG] for room in DAG},
-    "io/pack": STREAMING + ["io", *DAG],
     "io/formats": STREAMING + ["io", *DAG],
     "io/formats/dags": STREAMING + ["io", *DAG, "io/formats"],
     "io/formats/voxels": STREAMING + ["io", *DAG, "io/formats"],
@@ -63,14 +62,14 @@ ALLOWED = {
     "builder": STREAMING + ["io", *DAG, "io/scene"] + PHASES + ["builder/cache"],
     "builder/bake": BAKE,
     "builder/import": STREAMING + ["io", *DAG] + PHASES,
-    "builder/edit": STREAMING + ["io", *DAG, "io/pack", "builder/import"],
+    "builder/edit": STREAMING + ["io", *DAG, "builder/import", "builder/workspace"],
     "builder/farm/plan": BAKE + ["builder/bake"],
     "builder/farm/planner": BAKE + ["builder/bake", "builder/farm/plan"],
     "builder/farm/engines": BAKE + ["builder/bake", "builder/farm/plan"],
-    "builder/commands": BAKE + ["io/help", "io/pack", "builder/edit", "builder/farm/plan", "builder/farm/planner", "builder/farm/engines"],
+    "builder/commands": BAKE + ["io/help", "builder/edit", "builder/farm/plan", "builder/farm/planner", "builder/farm/engines"],
     "builder/commands/farm": BAKE + ["io/help", "builder/farm/plan", "builder/farm/planner", "builder/farm/engines", "builder/commands"],
-    "builder/commands/info": BAKE + ["io/help", "io/pack", "builder/farm/plan", "builder/farm/planner", "builder/commands"],
-    "builder/commands/export": STREAMING + ["io", "io/help", "io/pack", *DAG] + FORMATS,
+    "builder/commands/info": BAKE + ["io/help", "builder/farm/plan", "builder/farm/planner", "builder/commands"],
+    "builder/commands/export": STREAMING + ["io", "io/help", *DAG] + FORMATS,
     "builder/commands/import": STREAMING + ["io", "io/help", *DAG] + FORMATS + ["builder/run", "builder/import"],
     "verify/integrity": STREAMING + ["io", *DAG],
     "verify/judge": STREAMING + ["io", *DAG],
@@ -82,8 +81,8 @@ ALLOWED = {
     "verify/trace": STREAMING + ["io", *DAG, "io/help", "verify/trace/kernel"],
     "verify/trace/judge": STREAMING + ["io", *DAG, "verify/trace/kernel"],
     "verify/trace/program": STREAMING + ["io", *DAG, "io/help", "verify/trace/kernel", "verify/trace"],
-    "python": STREAMING + ["io", *DAG, "io/pack", "builder/import", "verify/trace/kernel"],
-    "verify/commands": STREAMING + ["io", *DAG, "io/scene", "io/help", "io/pack"] + FORMATS + VERIFY + TRACE,
+    "python": STREAMING + ["io", *DAG, "builder/import", "verify/trace/kernel"],
+    "verify/commands": STREAMING + ["io", *DAG, "io/scene", "io/help"] + FORMATS + VERIFY + TRACE,
 }
 
 # Files with a fixed list of includes: they compile for the GPU or without dependencies.
@@ -112,7 +111,7 @@ EXACT = {
     "verify/trace/kernel/rays.cpp": ["verify/trace/kernel/rays.h", "verify/trace/kernel/cells64_avx2.h",
                               "verify/trace/kernel/processor.h", "verify/trace/kernel/walk64.h"],
     "verify/trace/program/plain_file.h": ["io/dag/layers/layer_index.h", "io/dag/layers/layer_table.h"],
-    "verify/trace/program/plain_file.cpp": ["verify/trace/program/plain_file.h", "io/dag/compact/compact_check.h", "io/dag/layers/root_views.h", "io/pack/pack_format.h",
+    "verify/trace/program/plain_file.cpp": ["verify/trace/program/plain_file.h", "io/dag/compact/compact_check.h", "io/dag/layers/root_views.h", "io/dag/pack/pack_format.h",
                                     "streaming/error.h", "streaming/file/file.h",
                                     "streaming/file/input_watch.h"],
     "verify/trace/program/device.h": ["verify/trace/program/plain_file.h", "verify/trace/kernel/workload.h"],
@@ -129,7 +128,7 @@ LIBRARIES = {
     r"OpenMesh/": r"io/scene/readers/openmesh\.cpp|tests/io/scene/readers/openmesh_test\.cpp",
     r"assimp/": r"io/scene/readers/assimp\.cpp",
     r"meshoptimizer": r"io/scene/decoders/meshopt\.cpp|tests/io/scene/gltf/gltf_meshopt_test\.cpp",
-    r"zlib": r"io/scene/decoders/gzip\.cpp|verify/view/tile_file\.cpp|tests/io/scene/(decoders/gzip_test\.cpp|png_file\.h)",
+    r"zlib": r"io/formats/voxels/zip\.cpp|io/scene/decoders/gzip\.cpp|verify/view/tile_file\.cpp|tests/io/scene/(decoders/gzip_test\.cpp|png_file\.h)",
     r"httplib": r"verify/view/server\.cpp",
     r"draco/": r"io/scene/decoders/draco\.cpp|tests/.*",
     r"stb_?|stb/": r"verify/trace/image\.cpp|io/scene/decoders/image\.cpp|tests/io/scene/decoders/image_test\.cpp",
@@ -140,7 +139,7 @@ LIBRARIES = {
     r"embree": r"verify/trace/judge/embree\.cpp|tests/bench/peers/embree\.cpp",
     r"hwy/": r"builder/overlap/kernels/kernel[\w-]*\.(h|cpp)",
     r"xxhash": r"streaming/file/\w+\.cpp",
-    r"zstd\.h>": r"io/pack/zstd\.cpp",
+    r"zstd\.h>": r"io/dag/pack/zstd\.cpp",
     r"nanobind/": r"python/module\.cpp",
     r"nlohmann/": r"io/verdict\.cpp|io/scene/.*|io/dag/\w+\.cpp|builder/.*|verify/\w+/\w+\.cpp|tests/.*",
 }

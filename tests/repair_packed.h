@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "io/pack/pack_format.h"
+#include "io/dag/pack/pack_format.h"
 #include "streaming/file/checksum.h"
 
 namespace svdag {

@@ -15,8 +15,9 @@
 #include "builder/farm/engines/run_step.h"
 #include "builder/farm/planner/make_plan.h"
 #include "builder/merge/merge_runs.h"
+#include "io/dag/graph/selection.h"
+#include "io/dag/pack/pack.h"
 #include "io/help/manual.h"
-#include "io/pack/pack.h"
 
 namespace svdag {
 
@@ -131,13 +132,12 @@ struct EditCommand {
   OutputConfig output;
 };
 
-// svdag convert A.svdag -o B.svdag --layout LAYOUT.
+// svdag convert A.svdag -o B.svdag.
 struct ConvertCommand {
   std::string file;
   std::string output_path;
-  Layout layout = Layout::kPlain;
-  std::vector<std::string> layers;  // only these
-  uint64_t memory = 0;              // bytes; 0: half of the machine
+  Selection selection;
+  uint64_t memory = 0;  // bytes; 0: half of the machine
   std::string scratch;  // folder for data that does not fit in memory; empty: the output's
   OutputConfig output;
 };
@@ -146,9 +146,10 @@ struct ConvertCommand {
 struct PackCommand {
   std::string file;
   std::string output_path;
-  int level = kDefaultPackLevel;
-  uint64_t memory = 0;  // bytes; 0: half of the machine
-  size_t threads = 0;   // 0: all processors
+  Selection selection;
+  int level = kDefaultPackLevel;  // of zstd
+  uint64_t memory = 0;            // bytes; 0: half of the machine
+  size_t threads = 0;             // 0: all processors
   OutputConfig output;
 };
 

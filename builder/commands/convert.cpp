@@ -1,11 +1,10 @@
-// `svdag convert A.svdag -o B.svdag --layout LAYOUT`.
+// `svdag convert A.svdag -o B.svdag`: another layout, or a part of a file.
 #include <cstdio>
 
 #include "builder/commands/commands.h"
 #include "builder/run/bake_output.h"
-#include "io/dag/compact/compact_writer.h"
-#include "io/dag/compact/plain_form.h"
-#include "io/pack/unpack.h"
+#include "io/dag/graph/select.h"
+#include "io/dag/open_dag.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
@@ -13,15 +12,6 @@
 #include "streaming/file/file_names.h"
 
 namespace svdag {
-namespace {
-
-void copy(const DagFile& file, const std::string& path) {
-  AtomicFile output(path);
-  output.append(file.bytes());
-  output.commit();
-}
-
-}  // namespace
 
 int run(const ConvertCommand& config) {
   const std::string& path = config.output_path;
@@ -31,19 +21,12 @@ int run(const ConvertCommand& config) {
   AtomicFile::check(path, config.output.no_clobber);
   MemoryBudget budget(memory_or_default(config.memory));
   const WorkRoom room{&budget, config.scratch.empty() ? folder_of(path) : config.scratch};
-  const DagFile file = open_dag(config.file, config.layers, &room);
+  const DagFile file = open_dag(config.file, {}, &room);
   const uint64_t before = File::open_read(config.file).size();
-  const std::optional<DagFile> converted = plain_form(file, room);
-  const DagFile& plain = converted ? *converted : file;
-  Header header = plain.header();
-  if (config.layout == Layout::kCompact) {
-    header = write_compact(plain, path, room);
-  } else {
-    copy(plain, path);
-  }
+  const Header header = write_selection(file, config.selection, path, room);
   if (!config.output.quiet)
     std::printf("%s: %s, %s, %.1f %% of %s\n  content hash %s\n", path.c_str(),
-                layout_name(config.layout), format_bytes(header.file_bytes).c_str(),
+                layout_name(config.selection.layout), format_bytes(header.file_bytes).c_str(),
                 100 * double(header.file_bytes) / double(before), config.file.c_str(),
                 to_hex(header.content_hash).c_str());
   return int(ExitCode::kOk);

@@ -24,9 +24,9 @@ void check_operations(const EditConfig& edit) {
     fail_usage(*edit.second + ": choose --union, --intersection or --difference");
   if (!edit.second && edit.operation)
     fail_usage("a union, intersection or difference needs a second .svdag");
-  if (edit.level && (edit.second || edit.bounds))
+  if (edit.selection.level && edit.second)
     fail_usage("--level: coarsen the result in a second edit");
-  if (!edit.second && !edit.bounds && !edit.level && edit.layers.empty())
+  if (!edit.second && edit.selection.is_everything())
     fail_usage(
         "nothing to do: give --level, --bounds, --layer, or a second .svdag and an operation");
 }

@@ -31,15 +31,8 @@ void add_edit(CLI::App* program, Command* command) {
   add_operation("--intersection", SetOperation::kIntersection, "Voxels of A and B");
   add_operation("--difference", SetOperation::kDifference, "Voxels of A that are not of B");
   operations->require_option(0, 1);
-  app->add_option_function<std::string>(
-         "--bounds", [edit](const std::string& s) { edit->bounds = parse_bounds(s); },
-         "Keep only the voxels in this box, in world units")
-      ->type_name("x0,y0,z0,x1,y1,z1");
-  app->add_option("--level", edit->level,
-                  "Coarsen to 2^K voxels a side: a voxel is set if it holds a set voxel")
-      ->type_name("K");
-  add_layer(app, &edit->layers);
-  add_layout(app, &edit->layout);
+  add_selection(app, &edit->selection);
+  add_layout(app, &edit->selection.layout);
   add_no_clobber(app, &config->output.no_clobber);
   add_resource_options(app, &edit->memory, &config->threads, &edit->scratch);
   app->add_flag("--json", config->output.json, "Print counts and content hash as JSON");
@@ -61,8 +54,8 @@ void add_convert(CLI::App* program, Command* command) {
               {".svdag"})
       ->required()
       ->type_name("OUT");
-  add_layout(app, &config->layout);
-  add_layer(app, &config->layers);
+  add_layout(app, &config->selection.layout);
+  add_selection(app, &config->selection);
   add_no_clobber(app, &config->output.no_clobber);
   add_memory_budget(app, &config->memory);
   takes_folder(
@@ -74,8 +67,8 @@ void add_convert(CLI::App* program, Command* command) {
                      "svdag convert city.svdag -o roofs.svdag --layer roof"});
   app->preparse_callback([=](size_t) { *config = {}; });
   app->callback([=] {
-    if (app->count("--layout") == 0 && config->layers.empty())
-      fail_usage("convert: give --layout, --layer or both");
+    if (app->count("--layout") == 0 && config->selection.is_everything())
+      fail_usage("convert: give --layout, --layer, --level or --bounds");
     *command = *config;
   });
 }
@@ -105,6 +98,7 @@ void add_pack(CLI::App* program, Command* command) {
   from_to(app->add_option("--level", config->level, "Level of zstd, 1 to 19 (default: 5)"), 1,
           kMaxPackLevel)
       ->type_name("N");
+  add_selection(app, &config->selection, false);
   add_pack_resources(app, config.get());
   add_examples(app, {"svdag pack city.svdag -o city.svdag.pack"});
   app->preparse_callback([=](size_t) { *config = {}; });

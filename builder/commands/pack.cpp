@@ -1,12 +1,13 @@
 // `svdag pack FILE -o OUT.pack` and `svdag unpack FILE.pack -o OUT.svdag`.
-#include "io/pack/pack.h"
+#include "io/dag/pack/pack.h"
 
 #include <cstdio>
 
 #include "builder/commands/commands.h"
 #include "builder/run/bake_output.h"
-#include "io/dag/compact/plain_form.h"
-#include "io/pack/unpack.h"
+#include "io/dag/graph/select.h"
+#include "io/dag/open_dag.h"
+#include "io/dag/pack/unpack.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
@@ -29,9 +30,7 @@ int run(const PackCommand& config) {
   if (!path.ends_with(".pack")) fail_usage(path + ": the output must end in .pack");
   AtomicFile::check(path, config.output.no_clobber);
   MemoryBudget budget(memory_or_default(config.memory));
-  const DagFile file = open_dag(config.file);
-  const std::optional<DagFile> converted = plain_form(file, {&budget, folder_of(path)});
-  const DagFile& plain = converted ? *converted : file;
+  const DagFile plain = select(open_dag(config.file), config.selection, {&budget, folder_of(path)});
   ParallelExecutor executor(threads_or_all(config.threads));
   const uint64_t bytes = pack(plain, path, config.level, &budget, &executor);
   if (!config.output.quiet)

@@ -1,16 +1,17 @@
 #include "builder/edit/edit.h"
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
 #include <memory>
 #include <vector>
 
-#include "builder/edit/box_graph.h"
-#include "builder/edit/combined_graph.h"
-#include "builder/edit/dag_graph.h"
 #include "builder/edit/layer_pairs.h"
-#include "builder/edit/united_graph.h"
-#include "io/pack/unpack.h"
+#include "builder/workspace/workspace.h"
+#include "io/dag/graph/combined_graph.h"
+#include "io/dag/graph/reduce.h"
+#include "io/dag/graph/select.h"
+#include "io/dag/graph/united_graph.h"
+#include "io/dag/open_dag.h"
 #include "io/units.h"
 #include "streaming/error.h"
 
@@ -31,12 +32,6 @@ void require_same(const DagFile& a, const DagFile& b) {
   if (g.corner() != h.corner())
     differ("place", "corner " + format_point(g.corner()), format_point(h.corner()));
   if (a.rule() != b.rule()) differ("rule", rule_name(a.rule()), rule_name(b.rule()));
-}
-
-VoxelBox common_part(const VoxelBox& a, const VoxelBox& b) {
-  VoxelBox box{glm::max(a.min, b.min), glm::min(a.max, b.max)};
-  if (box.empty()) box = {};
-  return box;
 }
 
 // Where the result may have voxels.
@@ -61,72 +56,42 @@ Grid combined_grid(SetOperation operation, Grid grid, const Grid& other) {
 }  // namespace
 
 ImportReport edit(const EditConfig& config, Executor* executor) {
-  const uint64_t memory = memory_or_default(config.memory);
-  MemoryBudget budget(memory / 2);
-  const WorkRoom room{&budget, config.scratch.empty() ? folder_of(config.output) : config.scratch};
-  bool chosen = config.layers.empty();
-  const auto open = [&](const std::string& path) {  // of a file that has layers, only the chosen
-    DagFile file = open_dag(path, {}, &room);
-    if (config.layers.empty() || file.layers().empty()) return file;
-    chosen = true;
-    return only_layers(file, config.layers, room);
-  };
-  const DagFile first = open(config.first);
+  Workspace workspace(ScratchDir::path_for(config.output, config.scratch), config.memory,
+                      executor->workers());
+  workspace.clear(config.output, kUnfinishedHint);
+  MemoryBudget* const budget = workspace.budget();
+  const WorkRoom room = workspace.room();
+  const DagFile first = open_dag(config.first, {}, &room);
   std::optional<DagFile> second;
-  if (config.second) second.emplace(open(*config.second));
-  if (!chosen) layers_named(first.layers(), config.layers);  // an Error: there are none
-  Grid grid = first.grid();
-  if (config.level && (*config.level < kMinLevels || *config.level > grid.levels))
-    fail_usage("--level: " + config.first + " has the levels " + std::to_string(kMinLevels) +
-               " to " + std::to_string(grid.levels));
-  ImportConfig import;
-  import.source = config.first;
-  import.output = config.output;
-  import.layout = config.layout;
-  import.memory = memory - memory / 2;
-  import.scratch = config.scratch;
-  import.rule = first.rule();
-  import.largest_snap = first.header().largest_snap;
-
-  DagGraph a(first, config.level.value_or(grid.levels));
-  if (config.level) {
-    // Snaps are in voxels, which are larger now.
-    import.largest_snap = std::ldexp(import.largest_snap, *config.level - grid.levels);
-    return import_graph(&a, import, executor, first.layers());
-  }
-  NodeGraph* result = &a;
-  LayerTable layers = first.layers();
-  std::unique_ptr<NodeGraph> b, both, united, box, cropped;
+  if (config.second) second.emplace(open_dag(*config.second, {}, &room));
+  const Selection& selection = config.selection;
+  const bool both_lack_layers = first.layers().empty() && (!second || second->layers().empty());
+  const auto part = [&](const DagFile& file) {
+    Selection of_file{.layers = selection.layers, .level = selection.level};
+    if (file.layers().empty() && !both_lack_layers) of_file.layers.clear();
+    return graph_of(file, of_file, budget);
+  };
+  GraphOfSets result = part(first);
   if (second) {
+    GraphOfSets other = part(*second);
     require_same(first, *second);
-    b = std::make_unique<DagGraph>(*second, grid.levels);
-    grid = combined_grid(*config.operation, grid, second->grid());
-    LayerPairs pairs = pair_layers(*config.operation, {config.first, layers, a.roots()},
-                                   {*config.second, second->layers(), b->roots()});
-    both = std::make_unique<CombinedGraph>(*config.operation, result, b.get(), grid, &budget,
-                                           pairs.roots);
-    result = both.get();
-    if (pairs.needs_union) {
-      united = std::make_unique<UnitedGraph>(result, &budget);
-      result = united.get();
-    }
-    layers = std::move(pairs.layers);
-    import.largest_snap = std::max(import.largest_snap, second->header().largest_snap);
+    const Grid grid = combined_grid(*config.operation, result.nodes->grid(), other.nodes->grid());
+    LayerPairs pairs =
+        match_layers(*config.operation, {config.first, result.layers, result.nodes->roots()},
+                     {*config.second, other.layers, other.nodes->roots()});
+    result.become(std::make_unique<CombinedGraph>(*config.operation, result.nodes, other.nodes,
+                                                  grid, budget, pairs.roots));
+    if (pairs.needs_union) result.become(std::make_unique<UnitedGraph>(result.nodes, budget));
+    std::ranges::move(other.owned, std::back_inserter(result.owned));
+    result.layers = std::move(pairs.layers);
+    result.largest_snap = std::max(result.largest_snap, other.largest_snap);
   }
-  if (config.bounds) {
-    const VoxelBox before = grid.selection;
-    grid = select_bounds(grid, *config.bounds);
-    grid.selection = common_part(grid.selection, before);
-    if (grid.selection.empty())
-      fail_usage("--bounds: the box meets no voxel of the grid that may be set");
-    box = std::make_unique<BoxGraph>(grid, grid.selection);
-    std::vector<NodePair> roots;
-    for (const uint32_t root : result->roots()) roots.push_back({root, box->roots().front()});
-    cropped = std::make_unique<CombinedGraph>(SetOperation::kIntersection, result, box.get(), grid,
-                                              &budget, roots);
-    result = cropped.get();
-  }
-  return import_graph(result, import, executor, std::move(layers));
+  if (selection.bounds) crop(&result, *selection.bounds, budget);
+  DagWriter writer(config.output, result.nodes->grid(), first.rule(),
+                   selection.layout == Layout::kCompact ? std::optional(room) : std::nullopt);
+  const uint64_t voxels = reduce(result.nodes, room, executor, &writer, &result.layers).voxels;
+  writer.finish(voxels, result.largest_snap, std::move(result.layers));
+  return report_of(writer.header());
 }
 
 }  // namespace svdag

@@ -59,7 +59,7 @@ LayerPairs by_name(const LayerSets& a, const LayerSets& b) {
 
 }  // namespace
 
-LayerPairs pair_layers(SetOperation operation, LayerSets a, LayerSets b) {
+LayerPairs match_layers(SetOperation operation, LayerSets a, LayerSets b) {
   if (!a.layers.empty() && !b.layers.empty() && a.layers.kind != b.layers.kind)
     fail_usage(a.path + " and " + b.path + " differ in what a layer is: " +
                layer_kind_name(a.layers.kind) + " and " + layer_kind_name(b.layers.kind));

@@ -1,7 +1,7 @@
 // Which sets of two files a set operation combines.
 //
-// * Two files with layers: those of the same name; where a file lacks a layer, it is empty there. A
-//   union has the names of both, the other operations those of the first file.
+// * Two files with layers: layers of the same name; a layer that a file lacks is empty there. A
+//   union has the names of both, the other operations have the names of the first file.
 // * A file without layers in a union has what it holds in the unnamed layer. In an intersection or
 //   a difference it is a mask for every layer. So is, subtracted from it, the union of the other.
 #pragma once
@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "builder/edit/edit.h"
-#include "builder/edit/pair_numbers.h"
+#include "io/dag/graph/combined_graph.h"
 #include "io/dag/layers/layer_table.h"
 
 namespace svdag {
@@ -27,12 +26,12 @@ struct LayerSets {
 
 struct LayerPairs {
   LayerTable layers;            // of the result; roots and voxels are not set
-  std::vector<NodePair> roots;  // of the union, unless it is yet to be made, and of each layer
+  std::vector<NodePair> roots;  // of the union, unless it must be made, and of each layer
   bool needs_union = false;     // the OR of the layers is to be added as the first root
 };
 
 // Error (kUsage) if the layers are of different kinds, if there are too many, or if a union is
 // needed that its file does not have.
-LayerPairs pair_layers(SetOperation operation, LayerSets a, LayerSets b);
+LayerPairs match_layers(SetOperation operation, LayerSets a, LayerSets b);
 
 }  // namespace svdag

@@ -8,13 +8,13 @@
 #include <optional>
 
 #include "builder/import/full_cubes.h"
-#include "builder/import/graph_reduction.h"
 #include "builder/merge/merge.h"
 #include "builder/octree/morton.h"
 #include "builder/reduce/brick_reduction.h"
 #include "builder/run/bake_output.h"
 #include "builder/workspace/disk_need.h"
 #include "builder/workspace/workspace.h"
+#include "io/dag/graph/reduce.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/checksum.h"
@@ -97,7 +97,7 @@ struct LabelledWord {
 };
 using LabelledSort = ExternalSort<LabelledVoxel, LabelledWord>;
 
-// Reduces sorted voxels of layers; without `has_layers`, their union alone.
+// Reduces sorted voxels of layers; without `has_layers`, only their union.
 class LabelledReduction {
  public:
   LabelledReduction(bool has_layers, SubDagBuilder* builder)
@@ -179,29 +179,35 @@ class Import {
         executor_(executor),
         workspace_(ScratchDir::path_for(config.output, config.scratch), config.memory,
                    executor->workers()) {
-    workspace_.clear(config.output,
-                     "finish or discard it first with svdag build, or choose another output");
+    workspace_.clear(config.output, kUnfinishedHint);
   }
 
-  ImportReport run(NodeGraph* graph, LayerTable layers) {
-    const Grid grid = grid_of(*graph);
-    DagOutput output(config_.output, grid, config_.rule, config_.layout, workspace_.room());
-    const uint64_t voxels = set_roots(reduce_graph(graph, reduction(), &output), &layers);
-    const size_t count = layers.layers.size();
-    finish(&output, {}, voxels, std::move(layers));
-    return describe(grid, output, count);
+  ImportReport run(NodeGraph* graph) {
+    const WorkRoom room = workspace_.room();
+    DagWriter writer(config_.output, checked_grid(*graph), config_.rule,
+                     config_.layout == Layout::kCompact ? std::optional(room) : std::nullopt);
+    LayerTable no_layers;
+    const ReducedGraph reduced = reduce(graph, room, executor_, &writer, &no_layers);
+    files_ += reduced.spilled;
+    check_inputs();
+    writer.finish(reduced.voxels, config_.largest_snap);
+    return describe(writer.header());
   }
 
-  // The graph is reduced alone first: then its voxels are counted, and can be walked in any order.
+  // The graph is reduced first without labels: then its voxels are counted, and can be walked in
+  // any order.
   ImportReport run(NodeGraph* graph, const LabelSource& labels) {
-    const Grid grid = grid_of(*graph);
-    DagOutput plain(config_.output, grid, config_.rule);
-    const uint64_t voxels = reduce_graph(graph, reduction(), &plain).front().voxels;
-    const DagFile dag = plain.finish_unnamed(voxels, config_.source);
+    const Grid grid = checked_grid(*graph);
+    DagWriter plain(config_.output, grid, config_.rule);
+    LayerTable no_layers;
+    const ReducedGraph reduced = reduce(graph, workspace_.room(), executor_, &plain, &no_layers);
+    files_ += reduced.spilled;
+    const uint64_t voxels = reduced.voxels;
+    const DagFile dag = plain.finish_unnamed(voxels, 0, {}, config_.source);
     if (voxels != labels.count)
       fail_input(labels.path, "has " + format_count(labels.count) + " colours, but the DAG has " +
                                   format_count(voxels) + " voxels (--no-layers ignores it)");
-    RunSet set = reduce(grid.levels, [&](SubDagBuilder* builder) {
+    RunSet set = runs_of(grid.levels, [&](SubDagBuilder* builder) {
       LabelledReduction reduction(true, builder);
       if (voxels != 0) LabelledWalk(dag.view(), labels, &reduction).visit(0, 0, 0);
       reduction.finish();
@@ -242,7 +248,7 @@ class Import {
     cubes.sort();
     const Grid grid = choose_grid(place, highest);
     LayerTable table = layers != nullptr ? *layers : LayerTable();
-    RunSet set = reduce(grid.levels, [&](SubDagBuilder* builder) {
+    RunSet set = runs_of(grid.levels, [&](SubDagBuilder* builder) {
       if (labelled)
         LabelledReduction(!table.empty(), builder).run(&*labelled);
       else
@@ -254,17 +260,12 @@ class Import {
   }
 
  private:
-  Grid grid_of(const NodeGraph& graph) const {
+  Grid checked_grid(const NodeGraph& graph) const {
     const Grid grid = graph.grid();
     if (config_.levels != 0 && config_.levels != grid.levels)
       fail_usage("-r: the file has a fixed resolution of " +
                  format_resolution(uint64_t(grid.resolution())) + ": omit -r");
     return grid;
-  }
-
-  ReductionConfig reduction() {
-    return {workspace_.budget(), workspace_.shares().sort, executor_,
-            [this] { return new_file(); }};
   }
 
   // `table`: without roots and voxels.
@@ -278,37 +279,15 @@ class Import {
                         4 * scratch->block_bytes());
     const auto roots = merge(set.runs, std::move(set.roots), GridPart::whole(grid.levels), merging,
                              &output, executor_);
-    const size_t layer_count = table.layers.size();
-    finish(&output, roots, set.voxels, std::move(table));
-    return describe(grid, output, layer_count);
-  }
-
-  // Copies the sets to the table, whose order they have. Returns the voxels of the union.
-  static uint64_t set_roots(const std::vector<ReducedSet>& sets, LayerTable* layers) {
-    auto set = sets.begin();
-    uint64_t voxels = 0;
-    if (layers->has_union) {
-      voxels = set->voxels;
-      if (!layers->empty()) layers->union_root = set->root;
-      ++set;
-    }
-    bool any = false;
-    for (Layer& layer : layers->layers) {
-      layer.root = set->root;
-      layer.voxels = set->voxels;
-      any = any || layer.voxels != 0;
-      ++set;
-    }
-    // Of the solid rules: the format cannot represent an empty union beside a layer that is not
-    // empty.
-    if (any && voxels == 0) layers->has_union = false;
-    return voxels;
+    check_inputs();
+    output.finish(roots, set.voxels, config_.largest_snap, std::move(table));
+    return describe(output.header());
   }
 
   File new_file() { return workspace_.folder()->create("sort" + std::to_string(files_++)); }
 
   // The runs of what `fill` adds.
-  RunSet reduce(int levels, const std::function<void(SubDagBuilder*)>& fill) {
+  RunSet runs_of(int levels, const std::function<void(SubDagBuilder*)>& fill) {
     RunSet set;
     std::unique_ptr<SubDagBuilder> builder;
     const auto take_run = [&](bool spill) {
@@ -347,20 +326,12 @@ class Import {
     return grid;
   }
 
-  void finish(DagOutput* output, std::span<const SubDagRoot> roots, uint64_t voxels,
-              LayerTable layers) const {
+  void check_inputs() const {
     if (config_.inputs != nullptr) config_.inputs->check();
-    output->finish(roots, voxels, config_.largest_snap, std::move(layers));
   }
 
-  ImportReport describe(const Grid& grid, const DagOutput& output, size_t layers) const {
-    ImportReport report;
-    report.grid = grid;
-    report.layers = layers;
-    report.voxels = output.voxels();
-    for (const uint64_t nodes : output.key_counts()) report.nodes += nodes;
-    report.file_bytes = output.file_bytes();
-    report.content_hash = output.content_hash();
+  ImportReport describe(const Header& header) const {
+    ImportReport report = report_of(header);
     report.spilled = files_;
     return report;
   }
@@ -373,9 +344,19 @@ class Import {
 
 }  // namespace
 
-ImportReport import_graph(NodeGraph* graph, const ImportConfig& config, Executor* executor,
-                          LayerTable layers) {
-  return Import(config, executor).run(graph, std::move(layers));
+ImportReport report_of(const Header& header) {
+  ImportReport report;
+  report.grid = grid_of(header);
+  report.layers = header.layer_count;
+  report.voxels = header.voxels;
+  for (const Section& section : header.sections) report.nodes += section.nodes;
+  report.file_bytes = header.file_bytes;
+  report.content_hash = to_hex(header.content_hash);
+  return report;
+}
+
+ImportReport import_graph(NodeGraph* graph, const ImportConfig& config, Executor* executor) {
+  return Import(config, executor).run(graph);
 }
 
 ImportReport import_labelled_graph(NodeGraph* graph, const LabelSource& labels,

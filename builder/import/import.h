@@ -1,7 +1,7 @@
 // Imports voxels of another program as a minimal `.svdag`, the same bytes as a bake of these
 // voxels.
 //
-// DAGs are reduced as graphs (builder/import/graph_reduction.h). Lists of voxels are sorted by
+// DAGs are reduced as graphs (io/dag/graph/reduce.h). Lists of voxels are sorted by
 // Morton code, out of core, and reduced brick by brick (builder/reduce/brick_reduction.h,
 // builder/merge/merge.h). Fully set cubes are inserted between them without being expanded
 // (builder/import/full_cubes.h). Voxels of layers are sorted by brick and layer, so that each brick
@@ -11,8 +11,8 @@
 #include <functional>
 #include <string>
 
+#include "io/dag/graph/node_graph.h"
 #include "io/dag/layers/layer_table.h"
-#include "io/dag/node_graph.h"
 #include "io/voxel_source.h"
 #include "streaming/file/input_watch.h"
 #include "streaming/process/executor.h"
@@ -38,8 +38,11 @@ struct ImportReport {
   uint64_t nodes = 0;  // bricks included
   uint64_t file_bytes = 0;
   std::string content_hash;  // 32 hex digits
-  int spilled = 0;           // number of scratch files of the sort
+  int spilled = 0;           // number of sorts that did not fit in memory
 };
+
+// The report of a finished file.
+ImportReport report_of(const Header& header);
 
 // ", 3 layers" of a file with layers, else nothing.
 std::string layers_text(const ImportReport& report);
@@ -50,10 +53,8 @@ std::string report_json(const ImportReport& report, const std::string& output);
 // Passes all voxels to the sinks and returns their placement.
 using VoxelSource = std::function<GridPlacement(const VoxelSink&, const FullCubeSink&)>;
 
-// The roots of the graph are that of the union, if `layers` has it, and those of its layers. A file
-// without layers has one root. Roots and voxels of `layers` need not be set.
-ImportReport import_graph(NodeGraph* graph, const ImportConfig& config, Executor* executor,
-                          LayerTable layers = {});
+// The graph has one set of voxels.
+ImportReport import_graph(NodeGraph* graph, const ImportConfig& config, Executor* executor);
 // The layer of each voxel of a graph, in Morton order, which is that of a depth-first walk.
 struct LabelSource {
   std::string path;                // for errors

@@ -55,14 +55,7 @@ class DagOutput final : public BakeOutput {
   void store(LevelPiece* piece) override { writer_.store(piece); }
   void finish(std::span<const SubDagRoot> roots, uint64_t voxels, double largest_snap,
               LayerTable layers) override;
-  // Without pieces: one key at a time.
-  uint32_t add_brick(Brick brick) { return writer_.add_brick(brick); }
-  uint32_t add_node(const NodeKey& children) { return writer_.add_node(children); }
-  // Completes a file without layers that gets no name, in the plain layout; errors show `shown_as`.
-  DagFile finish_unnamed(uint64_t voxels, const std::string& shown_as) {
-    return writer_.finish_unnamed(voxels, 0, {}, shown_as);
-  }
-  uint64_t voxels() const { return writer_.header().voxels; }
+  const Header& header() const { return writer_.header(); }
   std::vector<uint64_t> key_counts() const override;
   uint64_t file_bytes() const override { return writer_.header().file_bytes; }
   std::string content_hash() const override;

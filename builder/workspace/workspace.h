@@ -15,6 +15,9 @@ namespace svdag {
 
 // Name of the journal of a bake (builder/bake/checkpoint.h) in its scratch folder.
 constexpr const char* kJournalName = "journal";
+// The hint of clear() for commands other than a bake.
+constexpr const char* kUnfinishedHint =
+    "finish or discard it first with svdag build, or choose another output";
 
 class Workspace {
  public:

@@ -1,4 +1,4 @@
-// Validates a `.svdag` file with pread alone, so that a reader may then map it and follow its
+// Validates a `.svdag` file by pread only, so that a reader may then map it and follow its
 // pointers without checks. Of a compact file only the checksums: io/dag/compact/compact_check.h
 // checks the structure of what is mapped.
 //
@@ -13,7 +13,7 @@
 
 namespace svdag {
 
-// Error (kBadInput) unless the header is one of a valid file, but for the places of its parts.
+// Error (kBadInput) unless the header is valid. The places of the parts are not checked.
 void check_header(const File& file, const Header& header);
 
 // Returns the header of a valid file; Error (kBadInput) with path and offset for any other.

@@ -10,7 +10,7 @@
 //   B  the 2^wB most referenced nodes of the rest
 //   C  all others
 //
-// Nodes are numbered by class, and within a class (but for private ones) in content order, that is,
+// Nodes are numbered by class, and within a class (except private ones) in content order, that is,
 // as in the plain layout. Node i is entry i % 32 of line i / 32, which has two bytes for it: m0 and
 // m1. Bits c of both are the state of child c, m0 + 2 m1: 0 absent, 1 to 3 its class. The base
 // table has the number of references to each class before each line, so that a reference is found
@@ -68,7 +68,7 @@ SVDAG_HD inline uint64_t compact_bytes(const CompactEntry& entry, uint64_t nodes
 
 // `width` <= 32 bits of a stream, from bit `at` on.
 SVDAG_HD inline uint32_t stream_bits(const unsigned char* stream, uint64_t at, uint32_t width) {
-#if defined(__CUDA_ARCH__)  // which reads aligned words alone
+#if defined(__CUDA_ARCH__)  // which reads only aligned words
   const uint32_t* const words = reinterpret_cast<const uint32_t*>(stream) + (at >> 5);
   const uint32_t bits = __funnelshift_r(words[0], words[1], uint32_t(at & 31));
   return uint32_t(bits & ((uint64_t(1) << width) - 1));

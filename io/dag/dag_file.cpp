@@ -34,7 +34,7 @@ DagFile DagFile::open(const std::string& path) {
   return {std::move(mapped), path, std::move(layers)};
 }
 
-DagFile DagFile::adopt(File file, std::string path) {
+DagFile DagFile::map_valid(File file, std::string path) {
   const uint64_t size = file.size();
   const FileState state = state_of(file);
   MappedFile mapped(std::move(file), size, state);

@@ -22,7 +22,7 @@ class DagFile {
   static DagFile open(const std::string& path);
 
   // Maps a file that is known to be valid. Errors show `path`.
-  static DagFile adopt(File file, std::string path);
+  static DagFile map_valid(File file, std::string path);
 
   const std::string& path() const { return path_; }
   const Header& header() const { return *static_cast<const Header*>(file_.data()); }

@@ -14,7 +14,7 @@
 // Compact layout: io/dag/compact_view.h. The index of a node is its number.
 #pragma once
 
-#include "compact_view.h"  // beside this file, as format.h: the three are used alone
+#include "compact_view.h"  // beside this file, as format.h: the three are used without other files
 
 namespace svdag {
 
@@ -135,7 +135,7 @@ inline DagView dag_view(const void* data) {
   return view;
 }
 
-// The view of a copy of a file: `view` is that of the file at `from`, the copy is at `to`.
+// The view of a copy of a file: `view` is of the file at `from`, the copy is at `to`.
 inline DagView moved_view(DagView view, const void* from, const void* to) {
   const auto move = [&](auto*& pointer) {
     using Byte = const char*;

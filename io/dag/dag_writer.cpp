@@ -163,7 +163,7 @@ void DagWriter::encode(std::span<const unsigned char> masks, std::span<const uin
   for (size_t i = 0; i < masks.size(); ++i) {
     piece->indices[i] = uint32_t(word - begin);
     *word++ = masks[i];
-    for (int c = 0; c < 8; ++c) word[c] = child[c] - 1;  // those of the next nodes are overwritten
+    for (int c = 0; c < 8; ++c) word[c] = child[c] - 1;  // children of the next nodes: overwritten
     const size_t count = kChildCounts[masks[i]];
     word += count;
     child += count;
@@ -190,7 +190,7 @@ uint32_t DagWriter::append(LevelPiece* piece) {
   return index;
 }
 
-// Writes the roots, the default one first, the others ascending, and renumbers those of *layers.
+// Writes the roots, the default one first, the others ascending, and renumbers them in *layers.
 void DagWriter::write_roots(LayerTable* layers) {
   SVDAG_ASSERT(!layers->empty() || roots_.size() <= 1);
   std::sort(layers->layers.begin(), layers->layers.end(),
@@ -259,7 +259,7 @@ void DagWriter::complete(uint64_t voxels, double largest_snap, LayerTable layers
 DagFile DagWriter::finish_unnamed(uint64_t voxels, double largest_snap, LayerTable layers,
                                   const std::string& shown_as) {
   complete(voxels, largest_snap, std::move(layers));
-  return DagFile::adopt(File::open_read(file_.open_name()), shown_as);
+  return DagFile::map_valid(File::open_read(file_.open_name()), shown_as);
 }
 
 void DagWriter::finish(uint64_t voxels, double largest_snap, LayerTable layers,

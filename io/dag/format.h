@@ -98,13 +98,13 @@ struct Header {
   uint64_t layers_offset, layers_bytes;
   uint32_t layer_count;
   uint32_t layer_kind;          // LayerKind
-  uint32_t has_union;           // 1: the first root is that of all layers together
+  uint32_t has_union;           // 1: the first root is the union of all layers
   uint32_t padding2;            // zero
   unsigned char reserved[192];  // zero
   uint64_t header_checksum;     // XXH3-64 of the 1016 bytes before
 };
 
-// Whether level 0 has as many nodes as an empty or another file may have.
+// Whether the number of nodes of level 0 is possible: 0 in an empty file, else up to one per set.
 constexpr bool has_possible_roots(const Header& h) {
   const uint64_t roots = h.sections[0].nodes;
   if (h.sections[h.levels - 2].nodes == 0) return roots == 0;

@@ -24,7 +24,7 @@ inline const NodeKey& key_of(const NodeKey& node) {
 
 struct LevelPiece {
   std::vector<std::byte> bytes;   // the keys as in the file
-  std::vector<uint32_t> indices;  // of each key, that of the first being 0
+  std::vector<uint32_t> indices;  // of each key; 0 for the first
   NodeKey first{}, last{};        // keys; a brick has its high word first
   FilledBlocks filled;
 
@@ -32,7 +32,7 @@ struct LevelPiece {
     bytes.clear();
     indices.clear();
   }
-  // Adds a key but for its bytes. Keys ascend.
+  // Adds a key without its bytes. Keys ascend.
   void add(const NodeKey& key, size_t index) {
     SVDAG_ASSERT(indices.empty() || last < key);
     if (indices.empty()) first = key;

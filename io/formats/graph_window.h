@@ -1,7 +1,7 @@
 // A small read window over a foreign DAG file, for access to its nodes by file offset.
 //
-// An import reads the nodes of a level in ascending order (io/dag/node_graph.h), so the window
-// moves forward; other orders work too, but slower.
+// An import reads the nodes of a level in ascending order (io/dag/graph/node_graph.h), so the
+// window moves forward; other orders work too, but slower.
 #pragma once
 
 #include <algorithm>

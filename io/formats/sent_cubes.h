@@ -8,7 +8,7 @@
 //
 // A full cube takes 16 bytes, so that a tree node full of tiles (32,768 of them, from 8 KB of masks
 // in the file) cannot exhaust memory; a leaf takes 80. Both are stored in the order of OpenVDB's
-// tree, in which they arrive, so a voxel is found without an index.
+// tree, the order of arrival, so a voxel is found without an index.
 #pragma once
 
 #include <span>

@@ -54,7 +54,7 @@ class VdbWriter {
   // Begins a new grid, to which the following calls add.
   virtual void begin(const std::string& name, const IndexToWorld& centres) = 0;
   virtual void metadata(const VdbMetadata& entries) = 0;
-  // The origin is a multiple of 8; that of a larger cube, a multiple of its side or of 4096.
+  // The origin is a multiple of 8; the origin of a larger cube, of its side or of 4096.
   virtual void add(const VoxelCube& cube) = 0;
   virtual void add_voxel(const LatticePoint& voxel) = 0;
   // Begins the grid of labels, of type Int32 with the background -1. It is the last grid; .nvdb has

@@ -281,6 +281,20 @@ void add_layer(CLI::App* command, std::vector<std::string>* layers) {
       ->type_name("NAME");
 }
 
+void add_selection(CLI::App* command, Selection* selection, bool with_level) {
+  add_layer(command, &selection->layers);
+  if (with_level)
+    command
+        ->add_option("--level", selection->level,
+                     "Coarsen to 2^K voxels a side: a voxel is set if it holds a set voxel")
+        ->type_name("K");
+  command
+      ->add_option_function<std::string>(
+          "--bounds", [selection](const std::string& s) { selection->bounds = parse_bounds(s); },
+          "Only the voxels in this box, in world units")
+      ->type_name("x0,y0,z0,x1,y1,z1");
+}
+
 void add_examples(CLI::App* command, const std::vector<std::string>& lines,
                   const std::string& before) {
   std::string notes = before + (before.empty() ? "" : "\n\n");

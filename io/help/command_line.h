@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "io/dag/format.h"
+#include "io/dag/graph/selection.h"
 #include "io/help/manual.h"
 
 namespace CLI {
@@ -42,6 +42,10 @@ void add_memory_budget(CLI::App* command, uint64_t* bytes,
 
 // Adds --layout.
 void add_layout(CLI::App* command, Layout* layout);
+
+// Adds --layer, --level and --bounds. Without `with_level`, the command has no --level, or another
+// one.
+void add_selection(CLI::App* command, Selection* selection, bool with_level = true);
 
 // Adds --layer.
 void add_layer(CLI::App* command, std::vector<std::string>* layers);

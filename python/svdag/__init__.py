@@ -76,9 +76,20 @@ class File:
     Queries use all processors and release the GIL; a File may be used by several threads.
     """
 
-    def __init__(self, path: PathLike):
-        """Raises Error if the file cannot be read or is damaged."""
-        self._file: Optional[_svdag.File] = _svdag.File(_os.fsencode(path))
+    def __init__(self, path: PathLike, layers: Sequence[str] = (), level: Optional[int] = None,
+                 bounds: Optional[Sequence[float]] = None):
+        """Raises Error if the file cannot be read or is damaged.
+
+        The rest selects a part, which is made a file of its own: only these layers, the coarser grid of 2^level voxels on a
+        side, only the voxels in the box bounds=(x0, y0, z0, x1, y1, z1) in world units.
+        """
+        if isinstance(layers, str):
+            layers = (layers,)
+        names = [layer.encode(errors="surrogateescape") for layer in layers]
+        box = None if bounds is None else tuple(float(v) for v in bounds)
+        if box is not None and (len(box) != 6 or not all(box[a] <= box[a + 3] for a in range(3))):
+            raise ValueError(f"bounds: {bounds!r} is not (x0, y0, z0, x1, y1, z1) with the minimum first")
+        self._file: Optional[_svdag.File] = _svdag.File(_os.fsencode(path), names, level, box)
         info = self._file.info()
         self.path = _os.fsdecode(path)
         self.levels: int = info["levels"]  #: L; the grid has 2^L voxels on a side
@@ -240,9 +251,11 @@ class File:
         return Hits(*self._open().trace(o, d, min(float(tmax), 1e300), self._layer(layer)))
 
 
-def open(path: PathLike) -> File:  # noqa: A001
-    """Opens a .svdag file, plain, compact or packed. A packed file is unpacked to a temporary one first."""
-    return File(path)
+def open(path: PathLike, layers: Sequence[str] = (), level: Optional[int] = None,  # noqa: A001
+         bounds: Optional[Sequence[float]] = None) -> File:
+    """Opens a .svdag file, plain, compact or packed, or a part of it, as File does. A packed file, and a part, are written to
+    a temporary file first."""
+    return File(path, layers, level, bounds)
 
 
 def unpack_bricks(bricks: ArrayLike) -> NDArray:

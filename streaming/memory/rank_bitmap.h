@@ -10,6 +10,7 @@
 #include <bit>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "streaming/memory/memory_budget.h"
@@ -58,6 +59,21 @@ class RankBitmap {
     const size_t word = i % kChunk / 64;
     return chunk.before[word] +
            uint32_t(std::popcount(chunk.bits[word] & ((uint64_t(1) << (i % 64)) - 1)));
+  }
+  // The first position of the set from `from` on; nothing if there is none.
+  std::optional<uint32_t> next(uint64_t from) const {
+    size_t w = from % kChunk / 64;
+    uint64_t mask = ~uint64_t(0) << (from % 64);
+    for (size_t c = from / kChunk; c < chunks_.size(); ++c) {
+      for (; chunks_[c] && w < kWords; ++w) {
+        if (const uint64_t bits = chunks_[c]->bits[w] & mask; bits != 0)
+          return uint32_t(c * kChunk + w * 64 + size_t(std::countr_zero(bits)));
+        mask = ~uint64_t(0);
+      }
+      w = 0;
+      mask = ~uint64_t(0);
+    }
+    return std::nullopt;
   }
   // Calls visit(position) for all positions, ascending.
   template <class Visit>

@@ -1,13 +1,32 @@
 #include "streaming/spill/work_array.h"
 
+#include <fcntl.h>
 #include <sys/mman.h>
 
 #include <cerrno>
 #include <filesystem>
 
+#include "streaming/file/file_folder.h"
 #include "streaming/file/system_call.h"
 
 namespace svdag {
+namespace {
+
+// Gives the file blocks for `bytes` bytes: where a sparse file is mapped, a full disk is a SIGBUS.
+void allocate_blocks(File* file, uint64_t bytes, const std::string& folder) {
+  if (bytes <= free_bytes_of(folder)) {
+    int error = EINTR;
+    while (error == EINTR) error = posix_fallocate(file->descriptor(), 0, off_t(bytes));
+    if (error == 0) return;
+    if (error != ENOSPC) fail_call(ExitCode::kOutput, "allocating", folder, error);
+  }
+  throw Error(ExitCode::kOutput,
+              "has less than " + std::to_string(bytes / 1'000'000 + 1) +
+                  " MB free for an array of nodes: give more --memory, or another folder",
+              folder);
+}
+
+}  // namespace
 
 WorkRoom temporary_room(MemoryBudget* budget) {
   std::error_code error;
@@ -25,7 +44,7 @@ WorkMemory::WorkMemory(uint64_t bytes, const WorkRoom& room)
     return;
   }
   File file = File::create_anonymous(room.folder);
-  file.truncate(bytes);
+  allocate_blocks(&file, bytes, room.folder);
   void* const mapped =
       mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file.descriptor(), 0);
   if (mapped == MAP_FAILED) fail_call(ExitCode::kOutput, "mapping", room.folder, errno);

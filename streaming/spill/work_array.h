@@ -1,7 +1,7 @@
 // An array of fixed size, zeroed: in memory while no more than half of the budget is used, so that
 // sorts and bitmaps find the rest; else in an anonymous file that is mapped, so that the system
 // keeps in memory what is used. Access in order stays fast, random access then waits for the disk.
-// T must be trivial.
+// The blocks of the file are allocated before it is mapped. T must be trivial.
 #pragma once
 
 #include <cstdint>

@@ -32,7 +32,7 @@ $ svdag convert plain.svdag -o plain.svdag --layout compact
 ! svdag: plain.svdag is also the input, which is never overwritten: choose another output
 ? 2
 $ svdag convert plain.svdag -o other.svdag
-! svdag: convert: give --layout, --layer or both
+! svdag: convert: give --layout, --layer, --level or --bounds
 ? 2
 $ svdag build city.ply -o a.run -r 64 --layout compact
 ! svdag: --layout: a .run has no layout: choose it when merging
@@ -67,6 +67,20 @@ $ svdag edit ab.svdag -o coarse.svdag --level 6 && svdag-verify diff coarse.svda
 | coarse.svdag: 64^3, 2,650 voxels, 220 nodes, 3.9 KiB
 |   content hash 37bfa99f4bbb660e7447e91bba651dd4
 | the level is the same scene
+# A box of the coarser level, in every way to get it.
+$ svdag edit coarse.svdag -o part.svdag $box -q && svdag info part.svdag | sed -n 4p
+|   149 voxels set, 86 SVO nodes, 38 DAG nodes (60 with 2x2x2 leaves)
+$ svdag edit ab.svdag -o x.svdag --level 6 $box -q && cmp x.svdag part.svdag
+$ svdag convert ab.svdag -o x.svdag --level 6 $box -q && cmp x.svdag part.svdag
+$ svdag convert part.svdag -o small.svdag --layout compact -q
+$ svdag convert ab.svdag -o x.svdag --level 6 $box --layout compact -q && cmp x.svdag small.svdag
+$ for end in basic_dag.dag.bin svo octree; do
+>   svdag export ab.svdag -o x.$end --level 6 $box -q && svdag export part.svdag -o y.$end -q && cmp x.$end y.$end
+> done
+$ svdag pack cropped.svdag -o x.pack -q && svdag pack ab.svdag -o y.pack $box -q && cmp x.pack y.pack
+$ svdag-verify diff ab.svdag coarse.svdag --level 6 $box | tail -1
+| same
+$ svdag-verify render ab.svdag -o x.png $box --size 64x36 -q && svdag-verify render cropped.svdag -o y.png --size 64x36 -q && cmp x.png y.png
 # Below 64K, a bake of the level itself may have other voxels near voxel planes.
 $ svdag build a.ply b.off -r 64 $cube -q -o 64.svdag
 $ svdag-verify diff 64.svdag coarse.svdag -q
@@ -103,7 +117,10 @@ $ svdag build b.off -r 256 $cube --rule thin -q -o t.svdag; svdag edit a.svdag t
 ! svdag: a.svdag and t.svdag differ in their rule: conservative and thin
 ? 2
 $ svdag edit a.svdag -o x.svdag --level 9
-! svdag: --level: a.svdag has the levels 3 to 8
+! svdag: --level 9: a.svdag has the levels 3 to 8
+? 2
+$ svdag edit a.svdag b.svdag -o x.svdag --union --level 5
+! svdag: --level: coarsen the result in a second edit
 ? 2
 $ svdag edit a.svdag -o x.svdag --bounds=900,0,0,901,1,1
 ! svdag: --bounds: the box meets no voxel of the grid that may be set

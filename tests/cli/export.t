@@ -91,7 +91,7 @@ $ sha256sum *
 | 01f61588b16629acb19da1feda9f2f5bba0dbcb5a36dfdfa44aeea082d043d03  r.svo
 | df6ee19e690a7bd55dd1f850ecb44e8518afb7e6f1cd242ee758a33367fa1eaf  r.symvox
 | eebca4b2dc50403902fb34ee2774da550a8a42e146cc101dde6ff4cbb8ef9000  r.vox
-| 60b8539f91f3f8d78475119bd41f063bb6d47016f1fd414f2307c9835976bb86  r16.svo
+| 33dda1980206bbbe13a558781ff8ba1bebfb15ce43bfac4f4eada023cec17e4b  r16.svo
 | ec428c4b8679b018836bf0239cc40d50557b896a3b9e3063a2f7602b2d33aca7  r64.basic_dag.dag.bin
 
 ## export_full_disk
@@ -165,8 +165,8 @@ $ svdag export s.svdag -o s.vox -q
 $ svdag export s.svdag -o s.npz --level 7 --max-voxels 2
 ! svdag: there are 3 voxels to write, more than 2: export a coarser --level, a part with --bounds, or raise --max-voxels
 ? 2
-$ svdag export s.svdag -o s.svo --bounds=0,0,0,1,1,1
-! svdag: --bounds: the transform-DAG .svo holds whole DAGs only: bake or import just that part, or export voxels (npz, vdb, ...)
+$ svdag export s.svdag -o s.svo --bounds=900,0,0,901,1,1
+! svdag: --bounds: the box meets no voxel of the grid that may be set
 ? 2
 $ svdag export s.svdag --format octree -o s.oct
 ! svdag: s.oct: the name must end in .octree (two more files are written beside it)
@@ -296,7 +296,7 @@ $ svdag export a.svdag -o a.vdb --format foo
 ! svdag: --format: unknown format "foo": choose one of vdb, nvdb, hashdag, symvox, transform-dag, octree, npz, binvox, vox, ply
 ? 2
 $ svdag export a.svdag -o a.vdb --level 7
-! svdag: --level 7: a.svdag can be exported at levels 3 to 6
+! svdag: --level 7: a.svdag has the levels 3 to 6
 ? 2
 $ svdag export a.svdag -o a.vdb --bounds=1,2,3
 ! svdag: --bounds: "1,2,3" is not x0,y0,z0,x1,y1,z1 with the minimum first

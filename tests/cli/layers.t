@@ -40,6 +40,7 @@ $ svdag-verify diff a.svdag two.svdag --layer wall --layer floor | tail -4
 | clusters  0
 | same
 # The unnamed layer has the name that is shown, unless a layer has that very name.
+$ svdag pack a.svdag -q -o x.pack --layer wall && svdag unpack x.pack -q -o x.svdag && cmp x.svdag wall.svdag
 $ svdag convert a.svdag -q -o unnamed.svdag --layer '(unnamed)' && svdag-verify check unnamed.svdag | sed -n 4p
 | voxels  98,686
 $ printf 'v 0 0 0\nv 8 0 0\nv 0 8 0\nv 0 0 1\nf 1 2 3\no (unnamed)\nf 1 2 4\n' > b.obj

@@ -257,7 +257,7 @@ $ svdag-scene rectangle -q -o r.ply
 $ svdag build r.ply -r 64 -o r.svdag -q
 $ refused() { "$@" 2>&1 && echo "not refused: $*" || echo "exit $?"; }
 $ refused svdag export r.svdag -o r.ply.npz --level 0
-| svdag: --level 0: r.svdag can be exported at levels 3 to 6
+| svdag: --level 0: r.svdag has the levels 3 to 6
 | exit 2
 $ refused svdag-verify render r.svdag -o r.png --level 0
 | svdag-verify: --level: r.svdag has levels 1 to 6 to trace

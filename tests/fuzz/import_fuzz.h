@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "io/dag/graph/node_graph.h"
 #include "io/dag/layers/layer_table.h"
-#include "io/dag/node_graph.h"
 #include "io/voxel_source.h"
 #include "streaming/error.h"
 #include "tests/memory_file.h"

@@ -1,6 +1,6 @@
 // Arbitrary bytes as a packed file: an Error, or the plain file of its header.
-#include "io/pack/unpack.h"
 
+#include "io/dag/pack/unpack.h"
 #include "tests/fuzz/file_fuzz.h"
 #include "tests/fuzz/own_folder.h"
 #include "tests/repair_packed.h"

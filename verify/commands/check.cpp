@@ -1,5 +1,5 @@
 #include "io/dag/dag_file.h"
-#include "io/pack/unpack.h"
+#include "io/dag/open_dag.h"
 #include "io/units.h"
 #include "verify/commands/commands.h"
 #include "verify/integrity/integrity.h"

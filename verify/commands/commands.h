@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "io/dag/graph/selection.h"
 #include "io/formats/value_range.h"
 #include "io/scene/scene.h"
 #include "verify/commands/common.h"
@@ -47,12 +48,12 @@ int run_distance_bounds(const MeshConfig& config, const DagFile& file);
 struct DiffConfig {
   CommonConfig common;
   std::string a, b;
-  std::vector<std::string> layers;  // compare only these layers
-  uint64_t show = 10;               // differing voxels to list
-  bool by_index = false;            // compare by voxel index, ignoring positions
-  std::string write_diff;           // output: a PLY of the centres of differing voxels; empty: none
-  std::string render;               // output: a PNG; empty: none
-  PictureSize size;                 // of the PNG
+  Selection selection;     // of both
+  uint64_t show = 10;      // differing voxels to list
+  bool by_index = false;   // compare by voxel index, ignoring positions
+  std::string write_diff;  // output: a PLY of the centres of differing voxels; empty: none
+  std::string render;      // output: a PNG; empty: none
+  PictureSize size;        // of the PNG
   uint64_t write_most = 10'000'000;  // limit of its points
 };
 
@@ -94,10 +95,10 @@ struct RenderCommandConfig {
   CommonConfig common;
   std::string file;
   std::string output;
-  std::string mode;                 // a ShadeMode; empty: colour, or primary without layers
-  std::vector<std::string> layers;  // only these
-  ViewOptions view;  // without --light: over the left shoulder; --reach: a twentieth of
-                     // the scene's diagonal; --cone: 9 for ao, 0 for soft
+  std::string mode;     // a ShadeMode; empty: colour, or primary without layers
+  Selection selection;  // without a level
+  ViewOptions view;     // without --light: over the left shoulder; --reach: a twentieth of
+                        // the scene's diagonal; --cone: 9 for ao, 0 for soft
   int supersample = 2;
   std::optional<uint64_t> level;  // cubes of this level are solid; none: voxels
   std::optional<Box> clip;        // only voxels in this box are shown, in scene units
@@ -129,6 +130,7 @@ int run(const ReportConfig& config);
 struct ViewConfig {
   CommonConfig common;
   std::string file;
+  Selection selection;            // without a level
   int up = 1;                     // axis
   std::optional<uint64_t> level;  // the finest that is shown; none: voxels
   std::optional<std::string> to;  // write this folder instead of serving

@@ -5,7 +5,7 @@
 #include "io/dag/dag_file.h"
 #include "io/dag/dag_level.h"
 #include "io/dag/occupied_bounds.h"
-#include "io/pack/unpack.h"
+#include "io/dag/open_dag.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
@@ -202,7 +202,7 @@ int run(const DiffConfig& config) {
   check_outputs(config);
   Progress progress(config.common.progress);
   progress.phase("checksums", 0);
-  const DagFile a = open_dag(config.a, config.layers), b = open_dag(config.b, config.layers);
+  const DagFile a = open_dag(config.a, config.selection), b = open_dag(config.b, config.selection);
   if (!config.by_index) require_same_place(a, b);
   if (!config.render.empty() && a.view().levels != b.view().levels)
     fail_usage("--render: needs files of equal resolution: coarsen one with svdag edit --level");

@@ -55,7 +55,7 @@ void add_diff(CLI::App* app, VerifyCommand* parsed) {
   takes_whole_number(
       command->add_option("--show", config->show, "How many differing voxels to list (default 10)"))
       ->type_name("N");
-  add_layer(command, &config->layers);
+  add_selection(command, &config->selection);
   command->add_flag("--by-index", config->by_index,
                     "Compare voxel by voxel although the grids have different positions");
   takes_files(

@@ -2,7 +2,7 @@
 #include <set>
 
 #include "io/dag/dag_file.h"
-#include "io/pack/unpack.h"
+#include "io/dag/open_dag.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/printable.h"

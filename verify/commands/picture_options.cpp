@@ -21,7 +21,7 @@ void add_render(CLI::App* app, VerifyCommand* parsed) {
                "or primary without layers)"),
            {"primary", "shadow", "soft", "ao", "normal", "depth", "level", "steps", "colour"})
       ->type_name("MODE");
-  add_layer(command, &config->layers);
+  add_selection(command, &config->selection, false);
   add_camera(command, &config->view);
   add_rays(command, &config->view,
            {"over the left shoulder", "a twentieth of the scene's diagonal",
@@ -97,6 +97,7 @@ void add_view(CLI::App* app, VerifyCommand* parsed) {
       ->add_option("--level", config->level,
                    "Show nothing finer than the cubes of level K, from 3 on (default: voxels)")
       ->type_name("K");
+  add_selection(command, &config->selection, false);
   CLI::Option* to =
       takes_folder(command->add_option("--to", config->to,
                                        "Write the page and its tiles to a folder, for any web "

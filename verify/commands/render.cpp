@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "io/dag/dag_file.h"
-#include "io/pack/unpack.h"
+#include "io/dag/open_dag.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
 #include "streaming/file/file.h"
@@ -135,7 +135,7 @@ int run(const RenderCommandConfig& config) {
   if (config.fly && (*config.fly < 1 || *config.fly > 9999))
     fail_usage("--fly: give 1 to 9999 frames");
   if (!config.mode.empty()) parse_mode(config.mode);
-  const DagFile file = open_dag(config.file, config.layers);
+  const DagFile file = open_dag(config.file, config.selection);
   const bool layered = !file.layers().empty() && !config.frames;
   if (config.frames && file.layers().empty())
     fail_usage("--frames: " + file.path() + " has no layers (svdag build --layers)");

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "io/pack/unpack.h"
+#include "io/dag/open_dag.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
 #include "verify/commands/commands.h"

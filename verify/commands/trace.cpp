@@ -4,7 +4,7 @@
 #include <map>
 
 #include "io/dag/dag_file.h"
-#include "io/pack/unpack.h"
+#include "io/dag/open_dag.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "verify/commands/commands.h"

@@ -1,6 +1,6 @@
 #include "io/dag/dag_file.h"
 #include "io/dag/dag_level.h"
-#include "io/pack/unpack.h"
+#include "io/dag/open_dag.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "io/pack/unpack.h"
+#include "io/dag/open_dag.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/process/interrupt.h"
@@ -75,7 +75,7 @@ int write_to(const std::string& folder, const ViewConfig& config, const DagFile&
 int view(const ViewConfig& config) {
   ServerConfig server;
   if (!config.at.empty()) parse_address(config.at, &server);
-  const DagFile file = open_dag(config.file);
+  const DagFile file = open_dag(config.file, config.selection);
   if (file.view().empty()) fail_usage(file.path() + ": has no voxel to show");
   const uint32_t levels = file.view().levels;
   const uint64_t level = config.level.value_or(levels);

@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include "io/dag/compact/compact_writer.h"
-#include "io/dag/compact/plain_form.h"
+#include "io/dag/graph/select.h"
 #include "io/dag/node_starts.h"
 #include "io/grid.h"
 #include "streaming/printable.h"
@@ -281,7 +281,8 @@ IntegrityReport inspect(const Header& header, const DagView& dag, std::string_vi
 }
 
 IntegrityReport inspect_file(const DagFile& file, const WorkRoom& room) {
-  const std::optional<DagFile> converted = plain_form(file, room);
+  std::optional<DagFile> converted;
+  if (file.layout() != Layout::kPlain) converted.emplace(derive(file, {}, room));
   const DagFile& plain = converted ? *converted : file;
   IntegrityReport report = inspect(plain.header(), plain.view(), plain.metadata(), plain.layers());
   if (converted && !is_compact_form(file, plain, room))

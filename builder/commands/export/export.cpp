@@ -5,12 +5,13 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "builder/commands/export/selection.h"
+#include "builder/commands/export/export_part.h"
 #include "io/dag/dag_level.h"
+#include "io/dag/graph/select.h"
+#include "io/dag/open_dag.h"
 #include "io/formats/dags/hashdag.h"
 #include "io/formats/dags/octree.h"
 #include "io/json_text.h"
-#include "io/pack/unpack.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
@@ -20,7 +21,7 @@ namespace {
 
 struct FormatRow {
   ExportFormat format;
-  uint64_t (*write)(Selection*, const ExportConfig&, MemoryBudget*);
+  uint64_t (*write)(ExportPart*, const ExportConfig&, MemoryBudget*);
   std::string (*path)(const std::string& output,
                       int levels) = nullptr;  // nullptr: the output as given
   std::vector<std::string> (*files)(const std::string& path) = nullptr;  // nullptr: only the output
@@ -57,16 +58,6 @@ const FormatRow& choose(const ExportConfig& config) {
   if (config.format.empty())
     fail_usage(config.output + ": unknown file extension: choose a format with --format: " + names);
   fail_usage("--format: unknown format \"" + config.format + "\": choose one of " + names);
-}
-
-int checked_level(const DagFile& file, std::optional<int> requested) {
-  const int finest = int(file.header().levels);
-  const int level = requested.value_or(finest);
-  if (level < kMinLevels || level > finest)
-    fail_usage("--level " + std::to_string(level) + ": " + file.path() +
-               " can be exported at levels " + std::to_string(kMinLevels) + " to " +
-               std::to_string(finest));
-  return level;
 }
 
 void reject_options_of_other_formats(const FormatRow& row, const ExportConfig& config) {
@@ -111,11 +102,11 @@ std::string report_json(const ExportConfig& config, const char* format, const Gr
 
 }  // namespace
 
-Selection::Selection(const DagFile& dag_file, const ExportConfig& config)
+ExportPart::ExportPart(const DagFile& dag_file, const ExportConfig& config)
     : file(dag_file),
-      grid(level_grid(dag_file.grid(), checked_level(dag_file, config.level))),
+      grid(level_grid(dag_file.grid(), selected_level(dag_file, config.selection))),
       walk(dag_file.view(), uint32_t(grid.levels)) {
-  if (config.bounds) grid = select_bounds(grid, *config.bounds);
+  if (config.selection.bounds) grid = select_bounds(grid, *config.selection.bounds);
 }
 
 std::vector<ExportFormat> export_formats() {
@@ -129,24 +120,25 @@ int run(const ExportConfig& options) {
   reject_options_of_other_formats(row, options);
   MemoryBudget budget(memory_or_default(options.memory));
   const WorkRoom room{&budget, folder_of(options.output)};
-  const DagFile file = open_dag(options.file, options.layers, &room);
+  const DagFile file = open_dag(options.file, {.layers = options.selection.layers}, &room);
   if (options.colours && file.layers().empty())
     fail_usage("--colours: " + file.path() + " has no layers" +
-               (options.layers.empty() ? " (svdag build --layers)"
-                                       : " when one --layer is chosen: choose several, or none"));
-  Selection selection(file, options);
+               (options.selection.layers.empty()
+                    ? " (svdag build --layers)"
+                    : " when one --layer is chosen: choose several, or none"));
+  ExportPart part(file, options);
   ExportConfig config = options;
-  if (row.path != nullptr) config.output = row.path(options.output, selection.grid.levels);
+  if (row.path != nullptr) config.output = row.path(options.output, part.grid.levels);
   reject_input_as_output(row, config);
   AtomicFile::check(config.output, config.no_clobber);
   if (row.write == export_hashdag) check_colours_beside(config);
-  const uint64_t voxels = row.write(&selection, config, &budget);
+  const uint64_t voxels = row.write(&part, config, &budget);
   if (config.json)
-    std::fputs(report_json(config, row.format.name, selection.grid, voxels).c_str(), stdout);
+    std::fputs(report_json(config, row.format.name, part.grid, voxels).c_str(), stdout);
   else if (!config.quiet)
     std::printf("%s: %s, %s voxels of level %d (%s^3)\n", config.output.c_str(), row.format.name,
-                format_count(voxels).c_str(), selection.grid.levels,
-                format_resolution(uint64_t(selection.grid.resolution())).c_str());
+                format_count(voxels).c_str(), part.grid.levels,
+                format_resolution(uint64_t(part.grid.resolution())).c_str());
   return int(ExitCode::kOk);
 }
 

@@ -9,18 +9,16 @@
 #include <string>
 #include <vector>
 
+#include "io/dag/graph/selection.h"
 #include "io/formats/vdb.h"
-#include "io/triangle.h"
 
 namespace svdag {
 
 struct ExportConfig {
   std::string file;
   std::string output;
-  std::string format;        // a name in export_formats(); empty: from the output's extension
-  std::optional<int> level;  // the level whose nodes are exported as voxels; none: L, the finest
-  std::vector<std::string> layers;     // only these
-  std::optional<Box> bounds;           // only the voxels whose interior meets this box
+  std::string format;  // a name in export_formats(); empty: from the output's extension
+  Selection selection;
   std::optional<uint64_t> max_voxels;  // limit of formats that list voxels; none: 10^9
   std::optional<VdbFormat> vdb_type;   // --vdb-type; default: bool
   bool colours = false;                // --colours: hashdag gets a second file, of colours

@@ -26,15 +26,7 @@ void set_up(CLI::App* app, ExportConfig* config) {
                            formats + " (default: by the output's extension)"),
            names)
       ->type_name("NAME");
-  app->add_option(
-         "--level", config->level,
-         "Write the nodes of this level, from 3 on, as voxels (default: the voxels themselves)")
-      ->type_name("K");
-  add_layer(app, &config->layers);
-  app->add_option_function<std::string>(
-         "--bounds", [config](const std::string& s) { config->bounds = parse_bounds(s); },
-         "Write only this box, in scene units")
-      ->type_name("x0,y0,z0,x1,y1,z1");
+  add_selection(app, &config->selection);
   app->add_option_function<std::string>(
          "--max-voxels",
          [config](const std::string& s) { config->max_voxels = parse_count(s, "--max-voxels"); },

@@ -1,5 +1,5 @@
 #include "io/formats/vdb.h"
-#include "builder/commands/export/selection.h"
+#include "builder/commands/export/export_part.h"
 #include "io/formats/window.h"
 #include "io/units.h"
 #include "streaming/error.h"
@@ -11,19 +11,19 @@ namespace svdag {
 namespace {
 
 // The metadata of the grid besides its transform.
-VdbMetadata grid_metadata(const Selection& selection) {
-  const Header& h = selection.file.header();
+VdbMetadata grid_metadata(const ExportPart& part) {
+  const Header& h = part.file.header();
   return {{"creator", "svdag"},
-          {"svdag_level", std::to_string(selection.grid.levels)},
+          {"svdag_level", std::to_string(part.grid.levels)},
           {"svdag_levels", std::to_string(h.levels)},
-          {"svdag_rule", rule_name(selection.file.rule())},
+          {"svdag_rule", rule_name(part.file.rule())},
           {"svdag_content_hash", to_hex(h.content_hash)}};
 }
 
 // Error (kMemory) if the grid does not fit in the budget.
-CubeCounts count_cubes(VdbFormat format, Selection* selection, MemoryBudget* budget) {
+CubeCounts count_cubes(VdbFormat format, ExportPart* part, MemoryBudget* budget) {
   const uint64_t max_leaves = budget->limit() / vdb_bytes(format, 1, 0, 0);
-  const CubeCounts counts = selection->walk.count_cubes(selection->grid.selection, max_leaves);
+  const CubeCounts counts = part->walk.count_cubes(part->grid.selection, max_leaves);
   if (counts.blocks > max_leaves)
     throw Error(ExitCode::kMemory,
                 "the grid would have more than " + format_count(max_leaves) +
@@ -45,22 +45,22 @@ VdbMetadata layer_metadata(const std::vector<Layer>& layers) {
 
 // The cubes and blocks of labels (LayerLabels::divide).
 template <class Visit>
-void for_each_label(Selection* selection, const LayerLabels& labels, const Visit& visit) {
+void for_each_label(ExportPart* part, const LayerLabels& labels, const Visit& visit) {
   uint64_t cubes = 0;
-  selection->walk.visit(selection->grid.selection, [&](const VoxelCube& cube) {
+  part->walk.visit(part->grid.selection, [&](const VoxelCube& cube) {
     if (++cubes % 4096 == 0) check_interrupt();
-    return labels.divide(cube, &selection->walk, visit);
+    return labels.divide(cube, &part->walk, visit);
   });
 }
 
 // Reserves the memory of the labels. A full cube of one label takes no leaf.
-MemoryBudget::Reservation reserve_labels(const CubeCounts& counts, Selection* selection,
+MemoryBudget::Reservation reserve_labels(const CubeCounts& counts, ExportPart* part,
                                          const LayerLabels& labels, MemoryBudget* budget) {
   const uint64_t nodes = vdb_label_bytes(0, counts.middle, counts.large);
   const uint64_t room = std::max(budget->limit(), nodes) - nodes;
   const uint64_t max_leaves = room / vdb_label_bytes(1, 0, 0);
   uint64_t leaves = 0;
-  for_each_label(selection, labels, [&](const VoxelCube&, std::optional<uint32_t> label) {
+  for_each_label(part, labels, [&](const VoxelCube&, std::optional<uint32_t> label) {
     leaves += !label;
     return leaves <= max_leaves;
   });
@@ -73,12 +73,12 @@ MemoryBudget::Reservation reserve_labels(const CubeCounts& counts, Selection* se
                          "leaves of the grid of layers");
 }
 
-void add_labels(Selection* selection, const LayerLabels& labels, VdbWriter* writer) {
-  writer->begin_labels("layer", voxel_centres(selection->grid));
-  writer->metadata(grid_metadata(*selection));
+void add_labels(ExportPart* part, const LayerLabels& labels, VdbWriter* writer) {
+  writer->begin_labels("layer", voxel_centres(part->grid));
+  writer->metadata(grid_metadata(*part));
   writer->metadata(layer_metadata(labels.layers()));
   VdbWriter::BlockLabels numbers;
-  for_each_label(selection, labels, [&](const VoxelCube& cube, std::optional<uint32_t> label) {
+  for_each_label(part, labels, [&](const VoxelCube& cube, std::optional<uint32_t> label) {
     if (label) {
       writer->add_label(cube.origin, cube.side, int32_t(*label));
       return true;
@@ -92,40 +92,40 @@ void add_labels(Selection* selection, const LayerLabels& labels, VdbWriter* writ
   });
 }
 
-uint64_t export_as(VdbFormat format, Selection* selection, const ExportConfig& config,
+uint64_t export_as(VdbFormat format, ExportPart* part, const ExportConfig& config,
                    MemoryBudget* budget) {
   const std::unique_ptr<VdbWriter> writer = make_vdb_writer();
-  const CubeCounts counts = count_cubes(format, selection, budget);
+  const CubeCounts counts = count_cubes(format, part, budget);
   const auto of_grid = budget->reserve(
       vdb_bytes(format, counts.blocks, counts.middle, counts.large), "leaves of the grid");
   std::optional<LayerLabels> labels;
   MemoryBudget::Reservation of_labels;
-  if (!selection->file.layers().empty() && format != VdbFormat::kNano) {
-    labels.emplace(selection->file, selection->grid.levels);
-    of_labels = reserve_labels(counts, selection, *labels, budget);
+  if (!part->file.layers().empty() && format != VdbFormat::kNano) {
+    labels.emplace(part->file, part->grid.levels);
+    of_labels = reserve_labels(counts, part, *labels, budget);
   }
-  writer->begin("occupancy", voxel_centres(selection->grid));
-  writer->metadata(grid_metadata(*selection));
+  writer->begin("occupancy", voxel_centres(part->grid));
+  writer->metadata(grid_metadata(*part));
   uint64_t voxels = 0, cubes = 0;
-  selection->walk.visit(selection->grid.selection, [&](const VoxelCube& cube) {
+  part->walk.visit(part->grid.selection, [&](const VoxelCube& cube) {
     if (++cubes % 4096 == 0) check_interrupt();
     voxels += cube.count();
     writer->add(cube);
     return true;
   });
-  if (labels) add_labels(selection, *labels, writer.get());
+  if (labels) add_labels(part, *labels, writer.get());
   writer->write(config.output, format);
   return voxels;
 }
 
 }  // namespace
 
-uint64_t export_vdb(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
-  return export_as(config.vdb_type.value_or(VdbFormat::kBool), selection, config, budget);
+uint64_t export_vdb(ExportPart* part, const ExportConfig& config, MemoryBudget* budget) {
+  return export_as(config.vdb_type.value_or(VdbFormat::kBool), part, config, budget);
 }
 
-uint64_t export_nvdb(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
-  return export_as(VdbFormat::kNano, selection, config, budget);
+uint64_t export_nvdb(ExportPart* part, const ExportConfig& config, MemoryBudget* budget) {
+  return export_as(VdbFormat::kNano, part, config, budget);
 }
 
 }  // namespace svdag

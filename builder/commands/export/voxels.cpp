@@ -1,4 +1,4 @@
-#include "builder/commands/export/selection.h"
+#include "builder/commands/export/export_part.h"
 #include "io/dag/occupied_bounds.h"
 #include "io/formats/voxels/binvox.h"
 #include "io/formats/voxels/npz.h"
@@ -13,11 +13,10 @@ namespace {
 constexpr uint64_t kDefaultMaxVoxels = 1'000'000'000;  // default of --max-voxels
 
 // Counts the voxels: the count in the file's header is not trusted.
-VoxelWindow window_of(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
-  const auto memory = budget->reserve(selection->walk.counting_bytes(selection->grid.selection),
-                                      "counts of voxels");
-  const VoxelWindow window{selection->grid, &selection->walk,
-                           selection->walk.count_voxels(selection->grid.selection)};
+VoxelWindow window_of(ExportPart* part, const ExportConfig& config, MemoryBudget* budget) {
+  const auto memory =
+      budget->reserve(part->walk.counting_bytes(part->grid.selection), "counts of voxels");
+  const VoxelWindow window{part->grid, &part->walk, part->walk.count_voxels(part->grid.selection)};
   const uint64_t max_voxels = config.max_voxels.value_or(kDefaultMaxVoxels);
   if (window.voxels > max_voxels)
     fail_usage("there are " + format_count(window.voxels) + " voxels to write, more than " +
@@ -26,41 +25,40 @@ VoxelWindow window_of(Selection* selection, const ExportConfig& config, MemoryBu
   return window;
 }
 
-uint64_t export_window(Selection* selection, const ExportConfig& config, MemoryBudget* budget,
+uint64_t export_window(ExportPart* part, const ExportConfig& config, MemoryBudget* budget,
                        void (*write)(const VoxelWindow&, const std::string&)) {
-  VoxelWindow window = window_of(selection, config, budget);
+  VoxelWindow window = window_of(part, config, budget);
   std::optional<LayerLabels> labels;
-  if (!selection->file.layers().empty())
-    window.labels = &labels.emplace(selection->file, selection->grid.levels);
+  if (!part->file.layers().empty()) window.labels = &labels.emplace(part->file, part->grid.levels);
   write(window, config.output);
   return window.voxels;
 }
 
 // The occupied box, in voxels of the exported level.
-VoxelBox occupied_window(const Selection& selection) {
-  const VoxelBox box = occupied_bounds(selection.file.view());
-  const int shift = selection.file.grid().levels - selection.grid.levels;
+VoxelBox occupied_window(const ExportPart& part) {
+  const VoxelBox box = occupied_bounds(part.file.view());
+  const int shift = part.file.grid().levels - part.grid.levels;
   const LatticePoint up((int64_t(1) << shift) - 1);
   return {box.min >> LatticePoint(shift), (box.max + up) >> LatticePoint(shift)};
 }
 
 }  // namespace
 
-uint64_t export_npz(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
-  return export_window(selection, config, budget, write_npz);
+uint64_t export_npz(ExportPart* part, const ExportConfig& config, MemoryBudget* budget) {
+  return export_window(part, config, budget, write_npz);
 }
 
-uint64_t export_binvox(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
-  if (!config.bounds) selection->grid.selection = occupied_window(*selection);
-  return export_window(selection, config, budget, write_binvox);
+uint64_t export_binvox(ExportPart* part, const ExportConfig& config, MemoryBudget* budget) {
+  if (!config.selection.bounds) part->grid.selection = occupied_window(*part);
+  return export_window(part, config, budget, write_binvox);
 }
 
-uint64_t export_vox(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
-  return export_window(selection, config, budget, write_vox);
+uint64_t export_vox(ExportPart* part, const ExportConfig& config, MemoryBudget* budget) {
+  return export_window(part, config, budget, write_vox);
 }
 
-uint64_t export_ply(Selection* selection, const ExportConfig& config, MemoryBudget* budget) {
-  return export_window(selection, config, budget, write_ply_points);
+uint64_t export_ply(ExportPart* part, const ExportConfig& config, MemoryBudget* budget) {
+  return export_window(part, config, budget, write_ply_points);
 }
 
 }  // namespace svdag

@@ -5,7 +5,7 @@
 // the parts follow from the entry and fill the section; every node has a child and the rest of the
 // last line is zero; the base table has the running number of references to each class, and the
 // totals are those of the entry; every stored reference is less than the size of its class, and the
-// padding is zero. References to private nodes are as many as there are private nodes, so the
+// padding is zero. The number of references to private nodes is the number of private nodes, so the
 // references that are not stored are valid.
 #pragma once
 

@@ -16,7 +16,7 @@ class ReferenceCounts {
   void add(uint32_t references) {
     references < small_.size() ? ++small_[references] : ++large_[references];
   }
-  // Calls visit(references, number of nodes with as many), descending.
+  // Calls visit(references, number of nodes with this number), descending.
   template <class Visit>
   void for_each(const Visit& visit) const {
     for (auto at = large_.rbegin(); at != large_.rend(); ++at) visit(at->first, at->second);
@@ -49,7 +49,7 @@ class NodeClasses {
  private:
   friend class ClassChoice;
   // The most referenced nodes: all with more than `more_than` references, and the first `ties`, in
-  // content order, of those with as many.
+  // content order, with exactly `more_than`.
   struct Top {
     uint32_t more_than = UINT32_MAX;
     uint64_t ties = 0;
@@ -63,7 +63,7 @@ class NodeClasses {
   }
 
   CompactEntry entry_{};
-  Top a_, b_;  // b_ includes a_, but for the ties
+  Top a_, b_;  // b_ includes a_, except the ties
 };
 
 }  // namespace svdag

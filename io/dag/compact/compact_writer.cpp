@@ -163,7 +163,7 @@ class CompactWriter {
     end_ = section.offset + section.bytes;
     file_.write_at(section.offset, std::as_bytes(std::span(&entry, 1)));
 
-    // Numbers the nodes below, but for the private ones.
+    // Numbers the nodes below, except the private ones.
     WorkArray<uint32_t> order(below.nodes(), room_);
     uint32_t next[kClasses] = {0, entry.sizes[0], entry.sizes[0] + entry.sizes[1]};
     uint64_t rank = 0;

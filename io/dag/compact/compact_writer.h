@@ -27,7 +27,7 @@ bool is_compact_form(const DagFile& compact, const DagFile& plain, const WorkRoo
 
 // [level]: what the sections of a plain file would take in the compact layout, in bytes.
 std::vector<uint64_t> compact_section_bytes(const DagView& view, const WorkRoom& room);
-// [level]: what those of a compact one would take in the plain layout.
+// [level]: what the sections of a compact file would take in the plain layout.
 std::vector<uint64_t> plain_section_bytes(const DagView& view);
 
 }  // namespace svdag

@@ -31,7 +31,7 @@ class Walk {
     dag_for_children(view, 0, 0, [&](unsigned, uint32_t child) { visit(1, child); });
     return nodes_;
   }
-  // [tag]: number of nodes, but for roots, that this walk alone reached.
+  // [tag]: number of nodes, except roots, that only this walk reached.
   std::vector<uint64_t> own(uint32_t tags) const {
     std::vector<uint64_t> own(tags + 1);
     for (const WorkArray<uint32_t>& owners : owner_) {
@@ -73,7 +73,7 @@ class Walk {
 
 std::vector<LayerStats> layer_stats(const DagFile& file, const WorkRoom& room) {
   const std::vector<Layer>& layers = file.layers().layers;
-  // A walk per root: number 0 is that of the union, if there is one.
+  // A walk per root: number 0 is the union, if there is one.
   const uint64_t roots = file.header().sections[0].nodes;
   std::vector<uint32_t> users(roots);
   if (file.layers().has_union && roots > 0) ++users[0];

@@ -10,7 +10,7 @@ namespace svdag {
 
 struct LayerStats {
   uint64_t nodes = 0;  // that the layer's root reaches, bricks included
-  uint64_t own = 0;    // of these, what no other root reaches, the union's neither
+  uint64_t own = 0;    // of these, reached by no other root, not even by the union's
 };
 
 // [layer], in the order of the table. One walk per root.

@@ -34,7 +34,7 @@ struct LayerTable {
   std::vector<Layer> layers;          // by name, ascending and unique
 
   bool empty() const { return kind == LayerKind::kNone; }
-  // The root of what a program shows without other orders: the union's, or without it that of the
+  // The root that a program shows by default: the root of the union, or without a union of the
   // first layer that has one; kNoRoot if nothing is set.
   uint32_t default_root() const;
   // Its voxels, if the union has `of_union`.

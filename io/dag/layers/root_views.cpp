@@ -8,7 +8,7 @@
 namespace svdag {
 namespace {
 
-// A node's references are counted from the bases of its line, so the line of a node alone has its
+// A node's references are counted from the bases of its line, so the line of a single node has its
 // two bytes, and as bases the references to each class before it.
 RootViews::Line line_of(const CompactLevel& level, uint32_t node) {
   RootViews::Line root;
@@ -55,7 +55,7 @@ DagView RootViews::of(DagView file, uint32_t root) const {
   return file;
 }
 
-void RootViews::move_line(DagView* view, Line* copy) {
+void RootViews::copy_line(DagView* view, Line* copy) {
   std::copy_n(reinterpret_cast<const unsigned char*>(view->compact[0].lines), sizeof copy->line,
               copy->line);
   std::copy_n(view->compact[0].bases, kClasses, copy->bases);

@@ -23,7 +23,7 @@ class RootViews {
     uint32_t bases[kClasses] = {};
   };
   // Lets the view of a compact file use `copy`, which gets the line that it has now.
-  static void move_line(DagView* view, Line* copy);
+  static void copy_line(DagView* view, Line* copy);
 
  private:
   std::vector<uint32_t> index_;  // [root]

@@ -85,13 +85,14 @@ std::string strip_ending(const std::string& path, const std::string& ending) {
 }
 
 // Index of the first word of each level, and of the end. Errors: kUsage.
-std::array<uint64_t, kMaxSections + 1> word_offsets(const LevelDag& dag, const Grid& grid) {
+std::array<uint64_t, kMaxSections + 1> word_offsets(const WholeDag& dag) {
+  const Grid grid = dag.grid();
   if (grid.levels > kMaxHashDagLevels)
     fail_usage("HashDAG holds grids up to 128K^3, this one has " +
                format_resolution(uint64_t(grid.resolution())) + "^3: export a coarser --level");
   std::array<uint64_t, kMaxSections + 1> base{};
   for (uint32_t k = 0; k < dag.brick_level(); ++k) base[k + 1] = base[k] + dag.words(k);
-  const uint64_t words = base[dag.brick_level()] + 2 * dag.bricks();
+  const uint64_t words = base[dag.brick_level()] + 2 * dag.bricks().size();
   if (words >= kNoChild)
     fail_usage("HashDAG holds at most 2^32 - 2 words, this DAG needs " + format_count(words) +
                ": export a coarser --level");
@@ -107,7 +108,7 @@ struct Enclosed {
   std::vector<WorkArray<uint32_t>> upper_bits;  // [level][word] of a mask
 };
 
-Enclosed count_enclosed(const LevelDag& dag, const WorkRoom& room) {
+Enclosed count_enclosed(const WholeDag& dag, const WorkRoom& room) {
   constexpr uint64_t kMaxTop = uint64_t(1) << 24;
   Enclosed enclosed{std::max(dag.levels(), kCountedLevels + 1) - kCountedLevels, {}, {}, {}};
   uint64_t top = 0;
@@ -120,18 +121,17 @@ Enclosed count_enclosed(const LevelDag& dag, const WorkRoom& room) {
   enclosed.memory = room.budget->reserve(top * sizeof(uint64_t), "voxels below nodes");
   enclosed.top.resize(top);
   enclosed.upper_bits.resize(dag.brick_level());
-  WorkArray<uint64_t> below(dag.bricks(), room);
+  WorkArray<uint64_t> below(dag.bricks().size(), room);
   uint64_t number = 0;
-  dag.for_each_brick([&](Brick brick) { below[number++] = uint64_t(std::popcount(brick)); });
+  for (const Brick brick : dag.bricks()) below[number++] = uint64_t(std::popcount(brick));
   for (uint32_t k = dag.brick_level(); k-- > 0;) {
-    const bool to_bricks = k + 1 == dag.brick_level(), is_top = k < enclosed.top_levels;
+    const bool is_top = k < enclosed.top_levels;
     WorkArray<uint64_t> here(dag.words(k), room);
     WorkArray<uint32_t> upper_bits(dag.words(k), room);
     if (is_top) top -= dag.nodes(k);
     uint64_t word = 0, next = top;
     dag.for_each_node(k, [&](uint32_t mask, const uint32_t* children) {
-      for (int i = 0; i < popcount8(mask); ++i)
-        here[word] += below[to_bricks ? dag.brick_number(children[i]) : children[i]];
+      for (int i = 0; i < popcount8(mask); ++i) here[word] += below[children[i]];
       upper_bits[word] = uint32_t(is_top ? next : here[word]);
       if (is_top) enclosed.top[next++] = here[word];
       word += 1 + uint64_t(popcount8(mask));
@@ -143,9 +143,9 @@ Enclosed count_enclosed(const LevelDag& dag, const WorkRoom& room) {
 }
 
 // `enclosed` is null without colours.
-void put_dag(const LevelDag& dag, const Grid& grid,
-             const std::array<uint64_t, kMaxSections + 1>& base, const Enclosed* enclosed,
-             Output* out) {
+void put_dag(const WholeDag& dag, const std::array<uint64_t, kMaxSections + 1>& base,
+             const Enclosed* enclosed, Output* out) {
+  const Grid grid = dag.grid();
   const Point corner = grid.corner();
   for (int a = 0; a < 3; ++a) out->put(corner[a]);
   for (int a = 0; a < 3; ++a) out->put(corner[a] + double(grid.resolution()) * grid.voxel_size);
@@ -158,29 +158,29 @@ void put_dag(const LevelDag& dag, const Grid& grid,
     dag.for_each_node(k, [&](uint32_t mask, const uint32_t* children) {
       out->put(enclosed == nullptr ? mask : mask | enclosed->upper_bits[k][word] << 8);
       for (int i = 0; i < popcount8(mask); ++i)
-        out->put(below + (to_bricks ? 2 * dag.brick_number(children[i]) : children[i]));
+        out->put(below + (to_bricks ? 2U : 1U) * children[i]);
       word += 1 + uint64_t(popcount8(mask));
     });
   }
-  dag.for_each_brick([&](Brick brick) { out->put(brick); });
+  for (const Brick brick : dag.bricks()) out->put(brick);
 }
 
-// Writes the colours of the voxels of a level, depth first.
+// Writes the colours of the voxels of a DAG, depth first.
 class ColourWriter {
  public:
-  ColourWriter(const DagFile& layered, uint32_t levels, Output* out)
-      : dag_(layered.view()), levels_(levels), labels_(layered, int(levels)), out_(out) {}
+  ColourWriter(const DagView& dag, const DagFile& layered, Output* out)
+      : dag_(dag), labels_(layered, int(dag.levels)), out_(out) {}
 
   void put_below(uint32_t level, uint32_t node, const Voxel& corner) {
-    if (level + 2 == levels_) {
-      for (Brick bits = dag_brick_at(dag_, level, node); bits != 0; bits &= bits - 1) {
+    if (level == dag_.brick_level()) {
+      for (Brick bits = dag_.bricks[node]; bits != 0; bits &= bits - 1) {
         const auto [x, y, z] = brick_voxel(unsigned(std::countr_zero(bits)));
         const Colour colour = labels_.colour_of({corner[0] + x, corner[1] + y, corner[2] + z});
         out_->put(0xff000000U | uint32_t(colour.b) << 16 | uint32_t(colour.g) << 8 | colour.r);
       }
       return;
     }
-    const uint32_t bit = levels_ - 1 - level;
+    const uint32_t bit = dag_.levels - 1 - level;
     dag_for_children(dag_, level, node, [&](unsigned c, uint32_t child) {
       put_below(level + 1, child,
                 {corner[0] + (c >> 2 << bit), corner[1] + ((c >> 1 & 1) << bit),
@@ -190,7 +190,6 @@ class ColourWriter {
 
  private:
   const DagView& dag_;
-  uint32_t levels_;
   LayerLabels labels_;
   Output* out_;
 };
@@ -210,10 +209,10 @@ std::string hashdag_path(const std::string& path, int levels) {
          kNameEnding;
 }
 
-void write_hashdag(const LevelDag& dag, const Grid& grid, const std::string& path) {
-  const auto base = word_offsets(dag, grid);
+void write_hashdag(const WholeDag& dag, const std::string& path) {
+  const auto base = word_offsets(dag);
   Output out(path);
-  put_dag(dag, grid, base, nullptr, &out);
+  put_dag(dag, base, nullptr, &out);
   out.commit();
 }
 
@@ -221,10 +220,10 @@ std::string hashdag_colours_path(const std::string& path) {
   return strip_ending(path, ".dag.bin") + ".uncompressed_colors.bin";
 }
 
-void write_coloured_hashdag(const LevelDag& dag, const Grid& grid, const DagFile& layered,
-                            const std::string& path, const WorkRoom& room) {
+void write_coloured_hashdag(const WholeDag& dag, const DagFile& layered, const std::string& path,
+                            const WorkRoom& room) {
   constexpr uint64_t kMaxColours = uint64_t(1) << 32;
-  const auto base = word_offsets(dag, grid);
+  const auto base = word_offsets(dag);
   const Enclosed enclosed = count_enclosed(dag, room);
   const uint64_t voxels = enclosed.top[0];
   if (voxels == 0) fail_usage("--colours: there is no voxel to colour");
@@ -241,12 +240,12 @@ void write_coloured_hashdag(const LevelDag& dag, const Grid& grid, const DagFile
                     format_bytes(free) + " are free: export a coarser --level",
                 path);
   Output out(path), colours(colours_path);
-  put_dag(dag, grid, base, &enclosed, &out);
+  put_dag(dag, base, &enclosed, &out);
   colours.put(enclosed.top_levels);
   colours.put(uint64_t(enclosed.top.size()));
   colours.put(std::as_bytes(std::span(enclosed.top)));
   colours.put(voxels);
-  ColourWriter(layered, dag.levels(), &colours).put_below(0, 0, {0, 0, 0});
+  ColourWriter(dag.view(), layered, &colours).put_below(0, 0, {0, 0, 0});
   colours.commit();
   out.commit();
 }

@@ -30,18 +30,18 @@ void put_node(uint64_t data, uint64_t base, uint32_t mask, bool same, Output* ou
 // The number of the first child of each node.
 class ChildNumbers {
  public:
-  explicit ChildNumbers(const LevelDag& dag) : blocks_before_(dag.blocks_before()) {
+  explicit ChildNumbers(const WholeDag& dag) : blocks_before_(dag.blocks_before()) {
     uint64_t next = 1;  // node 0 is the voxel
     begin_[dag.brick_level()] = next;
-    next += blocks_before_[dag.bricks()];
+    next += blocks_before_[dag.bricks().size()];
     for (uint32_t k = dag.brick_level(); k-- > 0;) {
       begin_[k] = next;
       next += dag.words(k) - dag.nodes(k);
     }
     root_ = next;
   }
-  uint64_t of_brick(const LevelDag& dag, uint32_t number) const {
-    return begin_[dag.brick_level()] + blocks_before_[number];
+  uint64_t of_brick(uint32_t level, uint32_t brick) const {
+    return begin_[level] + blocks_before_[brick];
   }
   // Each word before `word` either starts a node (`starts`) or is a child pointer.
   uint64_t of_node(uint32_t level, uint32_t word, const RankBitmap& starts) const {
@@ -56,17 +56,17 @@ class ChildNumbers {
 };
 
 // Writes the 2^3 blocks, the children of the bricks.
-void put_blocks(const LevelDag& dag, Output* out) {
-  dag.for_each_brick([&](Brick brick) {
+void put_blocks(const WholeDag& dag, Output* out) {
+  for (const Brick brick : dag.bricks()) {
     for (unsigned t = 0; t < 8; ++t) {
       const uint32_t mask = uint32_t(brick >> (8 * mirrored_child(t)) & 0xff);
       if (mask != 0) put_node(kNoData, 0, mask, true, out);
     }
-  });
+  }
 }
 
 // Writes the children of the nodes of `level`.
-void put_children(const LevelDag& dag, uint32_t level, const ChildNumbers& numbers, Output* out) {
+void put_children(const WholeDag& dag, uint32_t level, const ChildNumbers& numbers, Output* out) {
   const bool to_bricks = level + 1 == dag.brick_level();
   std::optional<RankBitmap> below;
   if (!to_bricks) below = dag.node_starts(level + 1);
@@ -76,8 +76,8 @@ void put_children(const LevelDag& dag, uint32_t level, const ChildNumbers& numbe
       if ((mask >> c & 1) == 0) continue;
       const uint32_t child = children[popcount8(mask & ((1U << c) - 1))];
       if (to_bricks) {
-        put_node(kNoData, numbers.of_brick(dag, dag.brick_number(child)),
-                 brick_octants(dag.brick(child)), false, out);
+        put_node(kNoData, numbers.of_brick(level + 1, child), brick_octants(dag.bricks()[child]),
+                 false, out);
       } else {
         put_node(kNoData, numbers.of_node(level + 1, child, *below), dag.mask(level + 1, child),
                  false, out);
@@ -103,7 +103,7 @@ std::vector<std::string> octree_files(const std::string& path) {
   return {path, path + "nodes", path + "data"};
 }
 
-void write_octree(const LevelDag& dag, const std::string& path) {
+void write_octree(const WholeDag& dag, const std::string& path) {
   for (const char* ending : {"", "data"})
     AtomicFile::check(path + ending);  // before any file is created
   const ChildNumbers numbers(dag);

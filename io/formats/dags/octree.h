@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "io/formats/dags/level_dag.h"
+#include "io/formats/dags/whole_dag.h"
 
 namespace svdag {
 
@@ -19,6 +19,6 @@ namespace svdag {
 std::vector<std::string> octree_files(const std::string& path);
 
 // Writes the three files.
-void write_octree(const LevelDag& dag, const std::string& path);
+void write_octree(const WholeDag& dag, const std::string& path);
 
 }  // namespace svdag

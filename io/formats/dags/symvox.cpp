@@ -81,11 +81,11 @@ class SymvoxGraph : public NodeGraph {
 
 // Assigns consecutive words from `first` on to the masks of 2^3 blocks in use: [mask] is its word,
 // or 0.
-std::array<uint32_t, 256> assign_block_words(const LevelDag& dag, uint64_t first, uint64_t* end) {
+std::array<uint32_t, 256> assign_block_words(const WholeDag& dag, uint64_t first, uint64_t* end) {
   std::array<uint32_t, 256> word{};
-  dag.for_each_brick([&](Brick brick) {
+  for (const Brick brick : dag.bricks()) {
     for (int b = 0; b < 64; b += 8) word[brick >> b & 0xff] = 1;
-  });
+  }
   *end = first;
   word[0] = 0;
   for (uint32_t& w : word) w = w != 0 ? uint32_t((*end)++) : 0;
@@ -93,19 +93,20 @@ std::array<uint32_t, 256> assign_block_words(const LevelDag& dag, uint64_t first
 }
 
 // Writes the nodes of the bricks and their blocks; `blocks`: the word of each block mask.
-void put_bricks(const LevelDag& dag, const std::array<uint32_t, 256>& blocks, Output* out) {
-  dag.for_each_brick([&](Brick brick) {
+void put_bricks(const WholeDag& dag, const std::array<uint32_t, 256>& blocks, Output* out) {
+  for (const Brick brick : dag.bricks()) {
     out->put(brick_octants(brick));
     for (int b = 56; b >= 0; b -= 8) {
       if ((brick >> b & 0xff) != 0) out->put(blocks[brick >> b & 0xff]);
     }
-  });
+  }
   for (uint32_t mask = 0; mask < 256; ++mask) {
     if (blocks[mask] != 0) out->put(mask);
   }
 }
 
-SymvoxHeader header_for(const LevelDag& dag, const Grid& grid) {
+SymvoxHeader header_for(const WholeDag& dag) {
+  const Grid grid = dag.grid();
   SymvoxHeader header{};
   const Point corner = grid.corner();
   const double side = double(grid.resolution()) * grid.voxel_size;
@@ -132,18 +133,19 @@ SymvoxHeader header_for(const LevelDag& dag, const Grid& grid) {
 
 }  // namespace
 
-void write_symvox(const LevelDag& dag, const Grid& grid, const std::string& path) {
-  SymvoxHeader header = header_for(dag, grid);
+void write_symvox(const WholeDag& dag, const std::string& path) {
+  SymvoxHeader header = header_for(dag);
   const BlockNumbers blocks_before = dag.blocks_before();
   std::array<uint64_t, kMaxSections> base{};  // [level]: index of its first word
   for (uint32_t k = 0; k < dag.brick_level(); ++k) base[k + 1] = base[k] + dag.words(k);
-  const uint64_t first_leaf = base[dag.brick_level()] + dag.bricks() + blocks_before[dag.bricks()];
+  const uint64_t first_leaf =
+      base[dag.brick_level()] + dag.bricks().size() + blocks_before[dag.bricks().size()];
   uint64_t words = 0;
   const auto blocks = assign_block_words(dag, first_leaf, &words);
   if (words > UINT32_MAX)
     fail_usage("SymVox holds fewer than 2^32 words, this DAG needs " + format_count(words) +
                ": export a coarser --level");
-  uint64_t nodes = dag.bricks() + (words - first_leaf);
+  uint64_t nodes = dag.bricks().size() + (words - first_leaf);
   for (uint32_t k = 0; k < dag.brick_level(); ++k) nodes += dag.nodes(k);
   header.nodes = uint32_t(nodes);
   header.first_leaf = uint32_t(first_leaf);
@@ -155,9 +157,7 @@ void write_symvox(const LevelDag& dag, const Grid& grid, const std::string& path
     const uint32_t below = uint32_t(base[k + 1]);
     const bool to_bricks = k + 1 == dag.brick_level();
     const auto word_of = [&](uint32_t child) {
-      if (!to_bricks) return below + child;
-      const uint32_t number = dag.brick_number(child);
-      return below + number + blocks_before[number];
+      return below + child + (to_bricks ? blocks_before[child] : 0);
     };
     dag.for_each_node(k, [&](uint32_t mask, const uint32_t* children) {
       out.put(mask);

@@ -10,14 +10,14 @@
 #include <memory>
 #include <string>
 
-#include "io/dag/node_graph.h"
-#include "io/formats/dags/level_dag.h"
+#include "io/dag/graph/node_graph.h"
+#include "io/formats/dags/whole_dag.h"
 
 namespace svdag {
 
-// `grid` is that of the exported level. 2^32 words or more are an Error (kUsage), and so is a box
-// that is not finite, or has no extent, in float32.
-void write_symvox(const LevelDag& dag, const Grid& grid, const std::string& path);
+// 2^32 words or more are an Error (kUsage), and so is a box that is not finite, or has no extent,
+// in float32.
+void write_symvox(const WholeDag& dag, const std::string& path);
 
 // `file` must outlive the graph. Any other file is an Error (kBadInput), and so are the mirrored
 // nodes of a .ussvdag.

@@ -80,7 +80,7 @@ class TransformDagGraph : public NodeGraph {
 
 }  // namespace
 
-void write_transform_dag(const LevelDag& dag, const std::string& path) {
+void write_transform_dag(const WholeDag& dag, const std::string& path) {
   Output out(path);
   out.put(kTransformDagMagic);
   out.put(kTransformDagVersion);
@@ -97,13 +97,13 @@ void write_transform_dag(const LevelDag& dag, const std::string& path) {
       for (unsigned c = 0, next = 0; c < 8; ++c) {
         if ((mask >> c & 1) == 0) continue;
         const uint32_t child = children[next++];
-        numbers[mirrored_child(c)] = to_bricks ? dag.brick_number(child) : below->rank(child);
+        numbers[mirrored_child(c)] = to_bricks ? child : below->rank(child);
       }
       out.put(std::as_bytes(std::span(numbers)));
     });
   }
-  out.put(dag.bricks());
-  dag.for_each_brick([&](Brick brick) { out.put(mirrored_brick(brick)); });
+  out.put(uint64_t(dag.bricks().size()));
+  for (const Brick brick : dag.bricks()) out.put(mirrored_brick(brick));
   out.put(uint32_t(1) << dag.levels());
   out.put(dag.levels());
   out.put(kTypeDag);

@@ -10,14 +10,14 @@
 #include <memory>
 #include <string>
 
-#include "io/dag/node_graph.h"
-#include "io/formats/dags/level_dag.h"
+#include "io/dag/graph/node_graph.h"
+#include "io/formats/dags/whole_dag.h"
 
 namespace svdag {
 
 constexpr uint32_t kTransformDagMagic = 72198382;
 
-void write_transform_dag(const LevelDag& dag, const std::string& path);
+void write_transform_dag(const WholeDag& dag, const std::string& path);
 
 // `file` must outlive the graph. Any other file is an Error (kBadInput).
 std::unique_ptr<NodeGraph> read_transform_dag(const File& file);

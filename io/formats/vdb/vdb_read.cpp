@@ -14,7 +14,7 @@ namespace {
 using openvdb::GridBase;
 using openvdb::io::GridDescriptor;
 
-// A .vdb in memory, of which only the requested grid is read: OpenVDB's File without the file.
+// A .vdb in memory; only the requested grid is read: OpenVDB's File without the file.
 // Files written by a stream store no offsets, so all their grids are read one after the other.
 class Archive final : public openvdb::io::Archive {
  public:

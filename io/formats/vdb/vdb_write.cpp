@@ -81,7 +81,7 @@ bool reads_back(openvdb::io::File* file, const GridType& mine) {
   return true;
 }
 
-// Writes the grids, and those of labels, if there are any.
+// Writes the grids, and the grids of labels, if there are any.
 template <class GridType>
 void write_grids(const std::string& path, openvdb::GridPtrVec grids,
                  const openvdb::Int32Grid::Ptr& labels) {

@@ -11,7 +11,7 @@
 // `voxel_size` hold one number, `corner` three, as float32, float64 or integers of 1 to 8 bytes;
 // any other array of these names is rejected, and so are compressed archives. `label` has an
 // integer for each row of the coordinates. Without names each number is a layer; names may also be
-// an array of texts. Without colours, they are those of the names.
+// an array of texts. Without colours, the names choose them.
 #pragma once
 
 #include <string>

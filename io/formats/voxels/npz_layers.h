@@ -28,7 +28,7 @@ struct NpzLayerArrays {
 // The labels of voxels, row by row.
 class NpzLabels {
  public:
-  // `array`: as many integers as there are voxels. `count`: of the layers in `table`, by number;
+  // `array`: an integer for each voxel. `count`: of the layers in `table`, by number;
   // none: each integer becomes one.
   NpzLabels(const File& file, const NpyArray& array, std::optional<size_t> count, LayerTable* table)
       : array_(array),
@@ -75,7 +75,7 @@ class NpzLabels {
   LabelNumbers numbers_;
 };
 
-// The labels of `voxels` voxels, of a file that has them. Fills `table`, which is empty, but for
+// The labels of `voxels` voxels, of a file that has them. Fills the empty `table`, except with
 // layers without names, which their labels add. Errors: kBadInput.
 NpzLabels read_npz_layers(const File& file, const NpzLayerArrays& arrays, uint64_t voxels,
                           LayerTable* table);

@@ -29,8 +29,8 @@ void write_vox(const VoxelWindow& window, const std::string& path);
 
 // Rotated models are not supported. If coordinates are negative, all voxels are shifted so that the
 // minimum is 0. Any other file is an Error (kBadInput). `layers`, which is empty, gets a layer for
-// each colour in use, but for a file without palette whose voxels have one colour; null: colours
-// are ignored.
+// each colour in use, except for a file without palette whose voxels have one colour; null: the
+// colours are ignored.
 GridPlacement read_vox(const File& file, const VoxelSink& sink, LayerTable* layers);
 
 }  // namespace svdag

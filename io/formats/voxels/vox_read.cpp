@@ -43,7 +43,7 @@ struct Model {
 };
 
 // A node of the scene graph: a translation (one child), a group (its children), or a shape (its
-// models are the frames of an animation, of which the first is read).
+// models are the frames of an animation; only the first is read).
 struct SceneNode {
   Offset translation{};
   uint32_t layer = kNoLayer;

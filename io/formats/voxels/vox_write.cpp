@@ -59,7 +59,7 @@ void put_shape(uint32_t id, uint32_t model, Output* out) {
   chunk.end();
 }
 
-// The number in the palette: that of the layer, or the one after the last for voxels of no layer.
+// The number in the palette: of the layer, or the one after the last for voxels of no layer.
 uint8_t colour_number(const LayerLabels& labels, const Voxel& voxel) {
   const size_t layers = labels.layers().size();
   const size_t number = 1 + std::min<size_t>(labels.of(voxel), layers);

@@ -1,7 +1,10 @@
 #include "io/formats/voxels/zip.h"
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <optional>
 
 #include "streaming/error.h"
@@ -17,33 +20,8 @@ constexpr uint16_t kExtra64 = 1;
 constexpr uint32_t kIn64BitField = 0xffffffff;
 constexpr uint16_t kDay = 1 << 5 | 1;  // 1 January 1980: makes archives reproducible
 
-// CRC-32 (IEEE 802.3), 8 bytes at a time: table k is for a byte followed by k zero bytes.
-constexpr std::array<std::array<uint32_t, 256>, 8> make_crc_tables() {
-  std::array<std::array<uint32_t, 256>, 8> tables{};
-  for (uint32_t i = 0; i < 256; ++i) {
-    uint32_t crc = i;
-    for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ ((crc & 1) != 0 ? 0xedb88320U : 0);
-    tables[0][i] = crc;
-  }
-  for (size_t k = 1; k < 8; ++k) {
-    for (size_t i = 0; i < 256; ++i)
-      tables[k][i] = tables[k - 1][i] >> 8 ^ tables[0][tables[k - 1][i] & 0xff];
-  }
-  return tables;
-}
-constexpr auto kCrc = make_crc_tables();
-
 uint32_t add_to_crc(uint32_t crc, std::span<const std::byte> bytes) {
-  crc = ~crc;
-  for (; bytes.size() >= 8; bytes = bytes.subspan(8)) {
-    uint64_t word;
-    std::memcpy(&word, bytes.data(), 8);
-    word ^= crc;
-    crc = 0;
-    for (size_t k = 0; k < 8; ++k) crc ^= kCrc[7 - k][word >> (8 * k) & 0xff];
-  }
-  for (const std::byte byte : bytes) crc = crc >> 8 ^ kCrc[0][(crc ^ uint32_t(byte)) & 0xff];
-  return ~crc;
+  return uint32_t(crc32_z(crc, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
 // The fields common to local headers and the directory, from the version to the sizes.
@@ -181,7 +159,7 @@ DirectoryRange find_directory(const File& file) {
   fail_input(file.path(), "is not a zip file (it has no directory)");
 }
 
-// Reads those of the sizes and the offset of an entry that are in its 64-bit extra field.
+// Reads the sizes and the offset of an entry, as far as they are in its 64-bit extra field.
 void read_extra64(const FileSlice& directory, uint64_t at, uint64_t bytes,
                   std::array<uint64_t*, 3> fields) {
   for (const uint64_t end = at + bytes; at + 4 <= end;) {

@@ -9,9 +9,7 @@
 
 #include "builder/build.h"
 #include "builder/merge/merge_runs.h"
-#include "io/dag/compact/plain_form.h"
-#include "io/dag/layers/chosen_layers.h"
-#include "io/dag/layers/layer_alone.h"
+#include "io/dag/graph/select.h"
 #include "tests/builder/bakes.h"
 #include "tests/expect_error.h"
 #include "tests/soup.h"
@@ -101,22 +99,27 @@ class Layers : public ::testing::Test {
     const std::vector<Layer>& layers = plain.layers().layers;
     std::vector<size_t> chosen;
     const bool all = pick(3) == 0;
-    for (size_t i = 0; i < layers.size(); ++i)
-      if (all || pick(2)) chosen.push_back(i);
-    const DagFile file = chosen_layers(plain, chosen, room_);
+    Selection selection;
+    for (size_t i = 0; i < layers.size(); ++i) {
+      if (!all && !pick(2)) continue;
+      chosen.push_back(i);
+      selection.layers.push_back(layers[i].name);
+    }
+    if (chosen.size() < 2) return;
+    const DagFile file = derive(plain, selection, room_);
     EXPECT_EQ(inspect_file(file, room_).defects, std::vector<std::string>());
     ASSERT_EQ(file.layers().layers.size(), chosen.size());
     std::vector<std::string> paths;
     for (size_t i = 0; i < chosen.size(); ++i) {
       const Layer &mine = file.layers().layers[i], &its = layers[chosen[i]];
       EXPECT_TRUE(mine.name == its.name && mine.colour == its.colour && mine.voxels == its.voxels);
-      EXPECT_EQ(nodes_of(layer_alone(file, i, room_)),
-                nodes_of(layer_alone(plain, chosen[i], room_)));
+      EXPECT_EQ(nodes_of(derive(file, {.layers = {its.name}}, room_)),
+                nodes_of(derive(plain, {.layers = {its.name}}, room_)));
       paths.push_back(folder_.file(its.name));
     }
     const bool is_or = !solids_ && config.rule != Rule::kSolid;
     if (is_or && !paths.empty()) {
-      EXPECT_EQ(nodes_of(layer_alone(file, {}, room_)), alone(config, paths));
+      EXPECT_EQ(nodes_of(derive(file, {.without_layers = true}, room_)), alone(config, paths));
     }
     if (is_or && all && config.with_union) {
       EXPECT_EQ(nodes_of(file), nodes_of(plain));
@@ -135,19 +138,20 @@ class Layers : public ::testing::Test {
   void check(const BuildConfig& config) {
     const DagFile file = DagFile::open(config.output);
     EXPECT_EQ(inspect_file(file, room_).defects, std::vector<std::string>());
-    const std::optional<DagFile> converted = plain_form(file, room_);
-    const DagFile& plain = converted ? *converted : file;
+    const DagFile plain = derive(file, {}, room_);
     ASSERT_EQ(plain.layers().layers.size(), config.scene.paths.size());
     if (config.with_union) {
-      EXPECT_EQ(nodes_of(layer_alone(plain, {}, room_)), alone(config, config.scene.paths));
+      EXPECT_EQ(nodes_of(derive(plain, {.without_layers = true}, room_)),
+                alone(config, config.scene.paths));
     }
     check_chosen(config, plain);
     for (size_t i = 0; i < plain.layers().layers.size(); ++i) {
-      const std::string path = folder_.file(plain.layers().layers[i].name);
-      EXPECT_EQ(nodes_of(layer_alone(plain, i, room_)), alone(config, {path})) << path;
+      const std::string& name = plain.layers().layers[i].name;
+      const std::string path = folder_.file(name);
+      EXPECT_EQ(nodes_of(derive(file, {.layers = {name}}, room_)), alone(config, {path})) << path;
       // A view of the layer in the file's own layout has its voxels, too.
       const DagView view = file.view_of(i);
-      const DagFile one = layer_alone(plain, i, room_);
+      const DagFile one = derive(plain, {.layers = {name}}, room_);
       for (int ray = 0; ray < 200; ++ray) {
         const uint32_t x = uint32_t(pick(view.resolution())), y = uint32_t(pick(view.resolution())),
                        z = uint32_t(pick(view.resolution()));

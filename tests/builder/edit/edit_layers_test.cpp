@@ -7,8 +7,7 @@
 
 #include "builder/edit/edit.h"
 #include "builder/edit/layer_pairs.h"
-#include "io/dag/compact/plain_form.h"
-#include "io/dag/layers/layer_alone.h"
+#include "io/dag/graph/select.h"
 #include "tests/builder/bakes.h"
 #include "tests/expect_error.h"
 #include "tests/reference_reduction.h"
@@ -144,7 +143,7 @@ TEST_F(EditLayers, SetOperationsGoByLayerAndTheUnionIsTheirOr) {
       config.first = content_name("a");
       config.second = content_name("b");
       config.operation = operation;
-      if (pick(3) == 0) config.layout = Layout::kCompact;
+      if (pick(3) == 0) config.selection.layout = Layout::kCompact;
       if (operation == SetOperation::kDifference && !a.has_layers && !b.has_union) {
         EXPECT_SVDAG_ERROR(edit_to(config, folder_.file("x.svdag")), ExitCode::kUsage,
                            "has no union of its layers to subtract");
@@ -178,9 +177,9 @@ TEST_F(EditLayers, ACropIsTheBakeWithBounds) {
     crop.first = config.output;
     const auto unit = [&] { return double(pick(1000)) / 1000; };
     const Point corner(unit(), unit(), unit());
-    crop.bounds = Box{corner, corner + Point(0.01) + 0.5 * Point(unit(), unit(), unit())};
+    crop.selection.bounds = Box{corner, corner + Point(0.01) + 0.5 * Point(unit(), unit(), unit())};
     edit_to(crop, folder_.file("crop.svdag"));
-    config.bounds = crop.bounds;
+    config.bounds = crop.selection.bounds;
     config.output = folder_.file("baked.svdag");
     bake(config);
     EXPECT_EQ(nodes_of(DagFile::open(folder_.file("crop.svdag"))),
@@ -194,11 +193,9 @@ TEST_F(EditLayers, ACoarserLevelAndOneLayerAreThoseOfEachLayer) {
     random_.seed(seed);
     bake(random_scene("a", Rule::kConservative, LayerKind::kFile));
     const DagFile file = DagFile::open(content_name("a"));
-    const std::optional<DagFile> converted = plain_form(file, room_);
-    const DagFile& plain = converted ? *converted : file;
     EditConfig config;
     config.first = content_name("a");
-    config.level = int(3 + pick(3));
+    config.selection.level = int(3 + pick(3));
     edit_to(config, folder_.file("coarse.svdag"));
     const DagFile coarse = DagFile::open(folder_.file("coarse.svdag"));
     EXPECT_EQ(inspect_file(coarse, room_).defects, std::vector<std::string>());
@@ -209,18 +206,19 @@ TEST_F(EditLayers, ACoarserLevelAndOneLayerAreThoseOfEachLayer) {
       const std::string& name = file.layers().layers[i].name;
       EXPECT_EQ(coarse.layers().layers[i].name, name);
       EXPECT_EQ(coarse.layers().layers[i].colour, file.layers().layers[i].colour);
-      config.layers = {name};
+      config.selection.layers = {name};
       edit_to(config, folder_.file("one.svdag"));
       const std::string one = nodes_of(DagFile::open(folder_.file("one.svdag")));
-      EXPECT_EQ(nodes_of(layer_alone(coarse, i, room_)), one);
+      EXPECT_EQ(nodes_of(derive(coarse, {.layers = {name}}, room_)), one);
       EditConfig level;
-      level.level = config.level;
+      level.selection.level = config.selection.level;
       level.first = folder_.file("alone.svdag");
       EditConfig alone;
       alone.first = config.first;
-      alone.layers = {name};
+      alone.selection.layers = {name};
       edit_to(alone, level.first);
-      EXPECT_EQ(nodes_of(layer_alone(plain, i, room_)), nodes_of(DagFile::open(level.first)));
+      EXPECT_EQ(nodes_of(derive(file, {.layers = {name}}, room_)),
+                nodes_of(DagFile::open(level.first)));
       edit_to(level, folder_.file("two.svdag"));
       EXPECT_EQ(nodes_of(DagFile::open(folder_.file("two.svdag"))), one);
     }
@@ -269,13 +267,13 @@ TEST_F(EditLayers, OfASolidAUnionThatIsEmptyBesideALayerIsLeftOut) {
   EXPECT_LT(whole.of_union.size(), whole.layers.at("one.stl").size());
   EditConfig crop;
   crop.first = config.output;
-  crop.bounds = Box{Point(0.3), Point(0.6)};
+  crop.selection.bounds = Box{Point(0.3), Point(0.6)};
   edit_to(crop, folder_.file("inside.svdag"));
   const Content inside = content(folder_.file("inside.svdag"));
   EXPECT_FALSE(inside.has_union);
   EXPECT_FALSE(inside.layers.at("one.stl").empty());
   EXPECT_EQ(inside.layers.at("one.stl"), inside.layers.at("two.stl"));
-  crop.bounds = Box{Point(-0.05), Point(0.6)};  // with a part of the surface
+  crop.selection.bounds = Box{Point(-0.05), Point(0.6)};  // with a part of the surface
   edit_to(crop, folder_.file("corner.svdag"));
   EXPECT_TRUE(content(folder_.file("corner.svdag")).has_union);
   // The union of the layerwise difference is their OR.
@@ -294,12 +292,12 @@ TEST(LayerPairs, UnionsHaveAtMost65535Layers) {
     (i % 2 ? a : b).layers.layers.push_back({std::to_string(i), {}});
     (i % 2 ? a : b).roots.push_back(i);
   }
-  EXPECT_EQ(pair_layers(SetOperation::kUnion, a, b).roots.size(), size_t(kMaxLayers));
+  EXPECT_EQ(match_layers(SetOperation::kUnion, a, b).roots.size(), size_t(kMaxLayers));
   a.layers.layers.push_back({"one more", {}});
   a.roots.push_back(0);
-  EXPECT_SVDAG_ERROR(pair_layers(SetOperation::kUnion, a, b), ExitCode::kUsage,
+  EXPECT_SVDAG_ERROR(match_layers(SetOperation::kUnion, a, b), ExitCode::kUsage,
                      "more than 65535 layers together");
-  EXPECT_EQ(pair_layers(SetOperation::kDifference, a, b).roots.size(), a.roots.size());
+  EXPECT_EQ(match_layers(SetOperation::kDifference, a, b).roots.size(), a.roots.size());
 }
 
 TEST_F(EditLayers, OfAUnionHaveTheSmallerColour) {

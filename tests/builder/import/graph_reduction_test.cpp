@@ -1,5 +1,5 @@
 // Reducing a DAG of another program gives the minimal DAG of its voxels.
-#include "builder/import/graph_reduction.h"
+#include "io/dag/graph/reduce.h"
 
 #include <gtest/gtest.h>
 
@@ -66,7 +66,7 @@ TEST(GraphReduction, GivesTheBytesOfTheVoxelsWithAnyMemory) {
   size_t runs = 0;
   const std::string expected = reduce_bricks(bricks, levels, UINT64_MAX, &runs);
   EXPECT_EQ(reduce_graph(bricks, levels, uint64_t(1) << 30), expected);
-  EXPECT_EQ(reduce_graph(bricks, levels, uint64_t(12) << 20, true), expected);
+  EXPECT_EQ(reduce_graph(bricks, levels, uint64_t(4) << 20, true), expected);
   // Empty bricks, and nodes that lead only to them, are dropped.
   for (uint32_t x = 0; x < 200; ++x) bricks.try_emplace({x, 100, 77}, 0);
   EXPECT_EQ(reduce_graph(bricks, levels, uint64_t(1) << 30), expected);

@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "io/dag/layers/layer_alone.h"
+#include "io/dag/graph/select.h"
 #include "streaming/file/input_watch.h"
 #include "streaming/spill/scratch_dir.h"
 #include "tests/builder/bakes.h"
@@ -170,7 +170,7 @@ TEST(ImportVoxels, EachLayerIsTheImportOfItsVoxelsAndTheUnionThatOfAll) {
     EXPECT_EQ(inspect_file(file, room).defects, std::vector<std::string>());
     EXPECT_EQ(file.layers().kind, LayerKind::kObject);
     EXPECT_EQ(import_list(list.voxels, folder.file("plain.svdag"), levels).voxels, report.voxels);
-    EXPECT_EQ(nodes_of(layer_alone(file, {}, room)),
+    EXPECT_EQ(nodes_of(derive(file, {.without_layers = true}, room)),
               nodes_of(DagFile::open(folder.file("plain.svdag"))));
     for (uint32_t label = 0; label < layers + 1; ++label) {
       std::vector<Voxel> own;
@@ -181,7 +181,7 @@ TEST(ImportVoxels, EachLayerIsTheImportOfItsVoxelsAndTheUnionThatOfAll) {
       EXPECT_EQ(file.layers().layers[number].colour, table.layers[label].colour);
       EXPECT_EQ(import_list(own, folder.file("own.svdag"), levels).voxels,
                 file.layers().layers[number].voxels);
-      EXPECT_EQ(nodes_of(layer_alone(file, number, room)),
+      EXPECT_EQ(nodes_of(derive(file, {.layers = {table.layers[label].name}}, room)),
                 nodes_of(DagFile::open(folder.file("own.svdag"))));
     }
     // In little memory, and without layers in the end.

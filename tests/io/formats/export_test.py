@@ -87,7 +87,7 @@ class Export(unittest.TestCase):
                 self.expect(self.empty, "empty", form, 3, self.voxels[:0], "--level", 3)
 
     def test_a_part_with_bounds(self):
-        for form in LISTS:
+        for form in {**DAGS, **LISTS}:
             for level in (7, 5):
                 with self.subTest(form=form, level=level):
                     voxels = inside(coarser(self.voxels, 7 - level), self.dag, level, BOUNDS)
@@ -95,6 +95,14 @@ class Export(unittest.TestCase):
                     size = self.dag.voxel_size * 2.0**(7 - level)
                     low = [int((b - c) // size) for b, c in zip(BOUNDS, self.dag.corner)] if form == "binvox" else (0, 0, 0)
                     self.expect(self.dag, "askew", form, level, voxels, "--level", level, bounds_option(BOUNDS), low=low)
+
+    def test_a_part_is_the_minimal_dag_of_an_edit(self):
+        for options in (["--level", "5"], [bounds_option(BOUNDS)], ["--level", "5", bounds_option(BOUNDS)]):
+            BAKERY.run("svdag", "edit", "askew.svdag", "-o", "part.svdag", "-q", *options)
+            for form in DAGS:
+                with self.subTest(form=form, options=options):
+                    expected = self.export("part", form).read_bytes()
+                    self.assertEqual(self.export("askew", form, *options).read_bytes(), expected)
 
     def test_a_part_of_a_full_grid_cuts_full_cubes(self):
         bounds = (2.7, 3.2, 0.8, 25.1, 19.9, 30.3)
@@ -168,12 +176,6 @@ class Export(unittest.TestCase):
             self.assertIn("--level", error)
             self.assertFalse(path.exists())
             BAKERY.run("svdag", "export", "askew.svdag", "--format", form, "-o", path, "--max-voxels", len(self.voxels))
-
-    def test_bounds_of_a_dag_are_rejected(self):
-        for form, name in DAGS.items():
-            self.assertIn("--bounds", BAKERY.run("svdag", "export", "askew.svdag", "--format", form, "-o",
-                                                 f"refused-{name}", bounds_option(BOUNDS), code=2))
-            self.assertFalse((BAKERY.folder / f"refused-{name}").exists())
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/expect_error.h"
 #include "tests/temp_folder.h"
 
 namespace svdag {
@@ -21,6 +22,15 @@ TEST(WorkArray, LeavesHalfOfTheBudgetAndIsZeroWhereverItIs) {
     for (uint64_t i = 0; i < array.size(); ++i) ASSERT_EQ(array[i], i);
   }
   EXPECT_EQ(budget.used(), 0U);
+  EXPECT_EQ(folder.entries(), 0U);
+}
+
+TEST(WorkArray, AFullDiskIsAnErrorBeforeTheArrayIsUsed) {
+  const TempFolder folder;
+  MemoryBudget budget(1 << 20);
+  const WorkRoom room{&budget, folder.path()};
+  EXPECT_SVDAG_ERROR(WorkArray<uint64_t>(uint64_t(1) << 50, room), ExitCode::kOutput,
+                     "has less than 9007199255 MB free");
   EXPECT_EQ(folder.entries(), 0U);
 }
 

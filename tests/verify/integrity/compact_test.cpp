@@ -9,8 +9,8 @@
 
 #include "io/dag/compact/compact_classes.h"
 #include "io/dag/compact/compact_writer.h"
-#include "io/dag/compact/plain_form.h"
 #include "io/dag/dag_stats.h"
+#include "io/dag/graph/select.h"
 #include "streaming/error.h"
 #include "tests/expect_error.h"
 #include "tests/repair_checksums.h"
@@ -82,9 +82,9 @@ TEST_F(Compact, ConvertsToAndFroByteForByteAndIsSound) {
       const std::vector<uint64_t> sizes = compact_section_bytes(a.view(), room_);
       for (size_t level = 0; level < sizes.size(); ++level)
         EXPECT_EQ(sizes[level], b.header().sections[level].bytes);
-      const std::optional<DagFile> c = plain_form(b, room_);
-      EXPECT_TRUE(std::ranges::equal(a.bytes(), c->bytes()));
-      EXPECT_FALSE(plain_form(a, room_).has_value());
+      const DagFile c = derive(b, {}, room_);
+      EXPECT_TRUE(std::ranges::equal(a.bytes(), c.bytes()));
+      EXPECT_TRUE(std::ranges::equal(a.bytes(), derive(a, {}, room_).bytes()));
     }
   }
 }
@@ -104,7 +104,7 @@ TEST_F(Compact, ConvertsBackWithinASmallBudget) {
   MemoryBudget small(4 << 20);
   const WorkRoom room{&small, room_.folder};
   EXPECT_TRUE(is_compact_form(b, a, room));
-  EXPECT_TRUE(std::ranges::equal(a.bytes(), plain_form(b, room)->bytes()));
+  EXPECT_TRUE(std::ranges::equal(a.bytes(), derive(b, {}, room).bytes()));
   EXPECT_LE(small.peak(), small.limit());
 }
 

@@ -7,7 +7,7 @@
 
 #include "io/dag/compact/compact_check.h"
 #include "io/dag/layers/root_views.h"
-#include "io/pack/pack_format.h"
+#include "io/dag/pack/pack_format.h"
 #include "streaming/error.h"
 #include "streaming/file/file.h"
 #include "streaming/file/input_watch.h"
@@ -149,7 +149,7 @@ void show_layer(PlainFile* file, size_t layer) {
   file->view = roots.of(all, file->layers.layers[layer].root);
   if (all.layout == Layout::kCompact && !file->view.empty()) {
     auto* const room = &*(file->words.end() - kRootWords);
-    RootViews::move_line(&file->view, reinterpret_cast<RootViews::Line*>(room));
+    RootViews::copy_line(&file->view, reinterpret_cast<RootViews::Line*>(room));
   }
   file->index.emplace(all.levels, file->layers.layers.size(), [&](size_t other) {
     return other == layer ? file->view : roots.of(all, kNoRoot);

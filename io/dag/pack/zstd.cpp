@@ -1,4 +1,4 @@
-#include "io/pack/zstd.h"
+#include "io/dag/pack/zstd.h"
 
 #include <zstd.h>
 

@@ -5,7 +5,7 @@
 // position that the level has for it; so a level has at most 64 nodes, and none needs storage.
 #pragma once
 
-#include "io/dag/node_graph.h"
+#include "io/dag/graph/node_graph.h"
 
 namespace svdag {
 

@@ -1,12 +1,20 @@
 #include <gtest/gtest.h>
 
-#include "builder/edit/box_graph.h"
-#include "builder/edit/combined_graph.h"
+#include <random>
+
+#include "io/dag/graph/box_graph.h"
+#include "io/dag/graph/combined_graph.h"
 #include "streaming/error.h"
-#include "tests/builder/reduce/reductions.h"
 
 namespace svdag {
 namespace {
+
+Grid whole_grid(int levels) {
+  Grid grid;
+  grid.levels = levels;
+  grid.selection = grid.whole();
+  return grid;
+}
 
 bool is_set(NodeGraph* graph, const LatticePoint& v) {
   const int levels = graph->grid().levels;
@@ -45,7 +53,7 @@ void expect_voxels(NodeGraph* graph, const Expected& expected) {
 TEST(BoxGraph, HoldsTheVoxelsOfTheBox) {
   std::mt19937 random(1);
   for (int i = 0; i < 100; ++i) {
-    const Grid grid = unit_grid(3 + i % 3);
+    const Grid grid = whole_grid(3 + i % 3);
     const VoxelBox box = random_box(&random, grid.resolution());
     BoxGraph graph(grid, box);
     expect_voxels(&graph, [&](const LatticePoint& v) { return box.holds({v, v + int64_t(1)}); });
@@ -55,7 +63,7 @@ TEST(BoxGraph, HoldsTheVoxelsOfTheBox) {
 TEST(CombinedGraph, DecidesEveryVoxelByBothGraphs) {
   std::mt19937 random(2);
   for (int i = 0; i < 60; ++i) {
-    const Grid grid = unit_grid(4);
+    const Grid grid = whole_grid(4);
     const VoxelBox p = random_box(&random, 16), q = random_box(&random, 16);
     BoxGraph a(grid, p), b(grid, q);
     MemoryBudget budget;
@@ -74,7 +82,7 @@ TEST(CombinedGraph, DecidesEveryVoxelByBothGraphs) {
 // Every cube has a node of its own.
 class ScatteredGraph final : public NodeGraph {
  public:
-  Grid grid() const override { return unit_grid(8); }
+  Grid grid() const override { return whole_grid(8); }
   std::array<uint32_t, 8> children(int, uint32_t id) override {
     std::array<uint32_t, 8> children;
     for (uint32_t c = 0; c < 8; ++c) children[c] = 8 * id + c;

@@ -1,17 +1,14 @@
-#include "io/pack/unpack.h"
+#include "io/dag/pack/unpack.h"
 
 #include <algorithm>
 #include <cstring>
 #include <functional>
 
 #include "io/dag/check.h"
-#include "io/dag/compact/plain_form.h"
 #include "io/dag/dag_writer.h"
-#include "io/dag/layers/chosen_layers.h"
-#include "io/dag/layers/layer_alone.h"
-#include "io/pack/node_streams.h"
-#include "io/pack/pack_format.h"
-#include "io/pack/zstd.h"
+#include "io/dag/pack/node_streams.h"
+#include "io/dag/pack/pack_format.h"
+#include "io/dag/pack/zstd.h"
 #include "streaming/file/checksum.h"
 #include "streaming/file/input_watch.h"
 #include "streaming/process/interrupt.h"
@@ -20,8 +17,8 @@
 namespace svdag {
 namespace {
 
-// Writes the streams of a chunk to `streams`; false if it does not hold exactly these streams, none
-// of which exceeds its limit.
+// Writes the streams of a chunk to `streams`; false if it does not hold exactly these streams, or
+// if one exceeds its limit.
 bool read_streams(std::span<const std::byte> chunk, size_t nodes, ZstdDecoder* zstd,
                   std::span<Stream> streams) {
   const size_t count = streams.size();
@@ -143,7 +140,7 @@ class Unpacker {
     require(end == header_.index_offset, "bytes between the chunks and the index", end);
   }
 
-  // The next chunks, those of a level of `nodes` nodes.
+  // The next chunks: a level of `nodes` nodes.
   std::span<const ChunkEntry> next_chunks(uint64_t nodes) {
     const size_t first = next_chunk_;
     while (nodes > 0) {
@@ -292,26 +289,6 @@ Header unpack_to(const std::string& path, const std::string& output, const WorkR
   writer.finish(h.voxels, h.largest_snap, unpacker.layers(),
                 [&](const Header& header) { unpacker.require_same(header); });
   return writer.header();
-}
-
-DagFile only_layers(const DagFile& file, const std::vector<std::string>& layers,
-                    const WorkRoom& room) {
-  const std::vector<size_t> chosen = layers_named(file.layers(), layers);
-  const std::optional<DagFile> converted = plain_form(file, room);
-  const DagFile& plain = converted ? *converted : file;
-  return chosen.size() == 1 ? layer_alone(plain, chosen[0], room)
-                            : chosen_layers(plain, chosen, room);
-}
-
-DagFile open_dag(const std::string& path, const std::vector<std::string>& layers,
-                 const WorkRoom* room) {
-  const bool packed = is_packed(path);
-  if (!packed && layers.empty()) return DagFile::open(path);
-  MemoryBudget budget(memory_or_default(0));
-  const WorkRoom own = room != nullptr ? *room : temporary_room(&budget);
-  ParallelExecutor executor(available_processors());
-  DagFile file = packed ? unpack(path, own, &executor) : DagFile::open(path);
-  return layers.empty() ? std::move(file) : only_layers(file, layers, own);
 }
 
 }  // namespace svdag

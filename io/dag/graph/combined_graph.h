@@ -12,11 +12,15 @@
 #include <span>
 #include <vector>
 
-#include "builder/edit/edit.h"
-#include "builder/edit/pair_numbers.h"
-#include "io/dag/node_graph.h"
+#include "io/dag/graph/node_graph.h"
+#include "io/dag/graph/pair_numbers.h"
 
 namespace svdag {
+
+// The voxels of both boxes; empty boxes are equal.
+VoxelBox common_part(const VoxelBox& a, const VoxelBox& b);
+
+enum class SetOperation { kUnion, kIntersection, kDifference };
 
 class CombinedGraph final : public NodeGraph {
  public:

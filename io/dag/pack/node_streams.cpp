@@ -1,4 +1,4 @@
-#include "io/pack/node_streams.h"
+#include "io/dag/pack/node_streams.h"
 
 #include <bit>
 #include <optional>

@@ -3,7 +3,8 @@
 //   header | layer table | chunks, deepest level first | index
 //
 // A chunk holds up to kChunkNodes successive nodes (or bricks) of one level of the plain layout, as
-// streams of bytes (io/pack/node_streams.h), each a zstd frame of its own. Chunks are independent.
+// streams of bytes (io/dag/pack/node_streams.h), each a zstd frame of its own. Chunks are
+// independent.
 #pragma once
 
 #include "io/dag/format.h"

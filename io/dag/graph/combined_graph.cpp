@@ -1,6 +1,12 @@
-#include "builder/edit/combined_graph.h"
+#include "io/dag/graph/combined_graph.h"
 
 namespace svdag {
+
+VoxelBox common_part(const VoxelBox& a, const VoxelBox& b) {
+  VoxelBox box{glm::max(a.min, b.min), glm::min(a.max, b.max)};
+  if (box.empty()) box = {};
+  return box;
+}
 
 CombinedGraph::CombinedGraph(SetOperation operation, NodeGraph* a, NodeGraph* b, const Grid& grid,
                              MemoryBudget* budget, std::span<const NodePair> roots)

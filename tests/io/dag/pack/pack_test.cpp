@@ -1,5 +1,6 @@
 // Tests that a packed file unpacks to the same bytes, and that no damaged one is accepted.
-#include "io/pack/pack.h"
+#include "io/dag/pack/pack.h"
+#include "io/dag/open_dag.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +10,9 @@
 #include <random>
 
 #include "io/dag/dag_writer.h"
-#include "io/pack/node_streams.h"
-#include "io/pack/pack_format.h"
-#include "io/pack/unpack.h"
+#include "io/dag/pack/node_streams.h"
+#include "io/dag/pack/pack_format.h"
+#include "io/dag/pack/unpack.h"
 #include "tests/expect_error.h"
 #include "tests/repair_packed.h"
 #include "tests/temp_folder.h"

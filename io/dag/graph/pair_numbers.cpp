@@ -1,4 +1,4 @@
-#include "builder/edit/pair_numbers.h"
+#include "io/dag/graph/pair_numbers.h"
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@
 namespace svdag {
 namespace {
 
-constexpr const char* kPairsPurpose = "pairs of nodes of the edit";
+constexpr const char* kPairsPurpose = "pairs of nodes";
 constexpr size_t kFirstSlots = 64;
 
 }  // namespace
@@ -30,6 +30,8 @@ size_t PairNumbers::slot_of(NodePair pair) const {
 uint32_t PairNumbers::number(NodePair pair) {
   size_t slot = slot_of(pair);
   if (slots_[slot] != 0) return slots_[slot] - 1;
+  if (pairs_.size() >= kMaxPairs)
+    throw Error(ExitCode::kOutput, "the result has more than 2^30 pairs of nodes on one level");
   if (2 * (pairs_.size() + 1) > slots_.size()) {
     grow();
     slot = slot_of(pair);
@@ -40,11 +42,10 @@ uint32_t PairNumbers::number(NodePair pair) {
 }
 
 void PairNumbers::grow() {
-  if (pairs_.size() >= kMaxPairs)
-    throw Error(ExitCode::kOutput, "the edit has more than 2^30 nodes on one level");
   const size_t slots = 2 * slots_.size();
   // The old and the new arrays are both in memory while they are copied.
-  memory_.resize(slots / 2 * sizeof(NodePair) * 3 / 2 + slots * sizeof(uint32_t) * 3 / 2, kPairsPurpose);
+  memory_.resize(slots / 2 * sizeof(NodePair) * 3 / 2 + slots * sizeof(uint32_t) * 3 / 2,
+                 kPairsPurpose);
   pairs_.reserve(slots / 2);
   HugeVector<uint32_t>().swap(slots_);
   slots_.resize(slots);

@@ -1,12 +1,12 @@
-#include "io/pack/pack.h"
+#include "io/dag/pack/pack.h"
 
 #include <algorithm>
 #include <cstring>
 
 #include "io/dag/node_starts.h"
-#include "io/pack/node_streams.h"
-#include "io/pack/pack_format.h"
-#include "io/pack/zstd.h"
+#include "io/dag/pack/node_streams.h"
+#include "io/dag/pack/pack_format.h"
+#include "io/dag/pack/zstd.h"
 #include "streaming/file/atomic_file.h"
 #include "streaming/file/checksum.h"
 #include "streaming/process/interrupt.h"

@@ -16,7 +16,7 @@ struct NodePair {
 
 class PairNumbers {
  public:
-  static constexpr size_t kMaxPairs = size_t(1) << 30;
+  static constexpr size_t kMaxPairs = (size_t(1) << 30) - 1;
 
   explicit PairNumbers(MemoryBudget* budget);
 
