@@ -28,7 +28,7 @@ bool has_option(const std::vector<std::string>& options, const std::string& opti
 // The commands of each program. `trace` is not listed for svdag-verify, where it needs a scene: the
 // word suggests svdag-trace.
 constexpr std::pair<std::string_view, std::string_view> kPrograms[] = {
-    {"svdag", "build plan run submit merge info query edit export import"},
+    {"svdag", "build batch plan run submit merge info query edit export import"},
     {"svdag-verify", "check mesh diff vdb render report"},
     {"svdag-trace", ""},
     {"svdag-scene", ""},

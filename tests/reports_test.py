@@ -23,8 +23,8 @@ svdag build city.ply -o half.run -r 64 --part 1/2
 svdag export thin.svdag -o thin.vdb
 svdag build city.ply scan.ply -o layers.svdag -r 64 --layers file --report layers.json
 svdag build city.ply scan.ply -o layers.run -r 64 --layers file --part 1/2
-svdag build --batch list.json --keep-going --report list.report.json
-svdag build --batch list.json --keep-going --report list.report.json"""
+svdag batch list.json --keep-going --report list.report.json
+svdag batch list.json --keep-going --report list.report.json"""
 LIST = [{"scene": "city.ply", "output": "a.svdag", "resolution": "64"},
         {"scene": "none.ply", "output": "b.svdag", "resolution": "64"}]
 QUERIES = """svdag edit city.svdag -o coarse.svdag --level 5

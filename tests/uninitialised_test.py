@@ -26,8 +26,8 @@ svdag build s.ply -r 128 --rule thin -j 1 -q -o t.svdag
 svdag build s.ply -r 256 -m 3M -j 1 -q -o b.svdag --cache c --checkpoint 0.001
 svdag build s.ply -r 256 -m 3M -j 1 -q -o b.svdag --cache c
 svdag plan s.ply -r 128 --shards 2 -q -o p
-svdag build p --shard 1 -q
-svdag build p --shard 2 -q
+svdag run p --step shard-1 -q
+svdag run p --step shard-2 -q
 svdag merge p/runs/shard-1.run p/runs/shard-2.run -q -o m.svdag
 svdag info a.svdag
 svdag info s.ply

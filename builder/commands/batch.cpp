@@ -1,11 +1,10 @@
-// `svdag build --batch LIST.json`: runs a list of bakes, with one report. With --parallel N, N
+// `svdag batch LIST.json`: runs a list of bakes, with one report. With --parallel N, N
 // bakes run at once, each with a share of 1/N of memory and threads.
 //
 // The list is an array of objects. Their keys are the options of `svdag build` without dashes, and
 // "scene", one or more paths. Each object becomes a command line; all are parsed before the first
-// bake. Options given with --batch are defaults for every bake in the list; options that
-// cannot apply to several bakes are rejected. Bakes that the previous --report shows to be up to
-// date are skipped.
+// bake. The other options of the command line are defaults for every bake in the list. Bakes that
+// the previous --report shows to be up to date are skipped.
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
@@ -32,9 +31,9 @@ std::string text_of(const Json& value) {
 
 // Rejects "FLAG": false if --FLAG was given for all bakes: a bake cannot switch it off.
 void reject_false(const std::string& key, const BatchCommand& batch) {
-  if (batch.given.contains("--" + key))
+  if (batch.flags.contains(key))
     fail_usage("\"" + key + "\": false cannot switch off the --" + key +
-               " given with --batch: leave one of them out");
+               " of the command line: leave one of them out");
 }
 
 // The command line of one object.

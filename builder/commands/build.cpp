@@ -258,14 +258,14 @@ std::string bake_scene(const BakeCommand& command, bool in_a_batch) {
 }
 
 int run(const BakeCommand& command) {
-  reject_plans(command.build.scene.paths, "--shard");
+  reject_plans(command.build.scene.paths);
   reject_overwriting(command);
   bake_scene(command, false);
   return int(ExitCode::kOk);
 }
 
 int run(const DryRunCommand& command) {
-  reject_plans(command.build.scene.paths, "--shard");
+  reject_plans(command.build.scene.paths);
   BakeCommand bake;
   bake.build = command.build;
   reject_overwriting(bake);

@@ -1,7 +1,6 @@
 // The commands of `svdag`: one struct each, and run(), which executes it.
 //
-// The command line is parsed to a Command (builder/commands/options.h); main() visits it. A struct
-// holds only what its command needs, so `svdag build` parses to one of four.
+// The command line is parsed to a Command (builder/commands/options.h); main() visits it.
 #pragma once
 
 #include <set>
@@ -47,11 +46,11 @@ struct DryRunCommand {
   OutputConfig output;
 };
 
-// svdag build --batch LIST: the bakes of a list.
+// svdag batch LIST: the bakes of a list.
 struct BatchCommand {
   std::string list;             // path of the JSON file
   BakeCommand defaults;         // options of bakes that do not override them
-  std::set<std::string> given;  // options on the command line, such as "--rule"
+  std::set<std::string> flags;  // given on the command line, such as "skip-invalid"
   bool keep_going = false;      // continue after a bake that fails
   bool dry_run = false;
   std::string report;   // path of the JSON report of all bakes; empty: none
@@ -59,28 +58,10 @@ struct BatchCommand {
   bool json = false;    // print the report of all bakes instead of the summaries
 };
 
-// svdag build PLAN --shard I: one shard of a plan.
-struct ShardCommand {
-  std::string plan;
-  size_t shard = 1;  // from 1
-  StepConfig step;
-  size_t threads = 0;  // 0: as planned
-  OutputConfig output;
-};
-
 // svdag merge RUN... -o OUT.
 struct MergeCommand {
   MergeRunsConfig merge;
   size_t threads = 0;  // 0: all processors
-  OutputConfig output;
-};
-
-// svdag merge PLAN --step NAME: one merge of a plan.
-struct MergeStepCommand {
-  std::string plan;
-  std::string step_name;
-  StepConfig step;
-  size_t threads = 0;  // 0: as planned
   OutputConfig output;
 };
 
@@ -95,6 +76,15 @@ struct RunCommand {
   std::string plan;
   size_t processes = 0;  // 0: one per processor
   std::string scratch;
+  OutputConfig output;
+};
+
+// svdag run PLAN --step NAME: one step of a plan.
+struct StepCommand {
+  std::string plan;
+  std::string name;  // of the step
+  StepConfig step;
+  size_t threads = 0;  // 0: as planned
   OutputConfig output;
 };
 
@@ -168,21 +158,19 @@ struct HelpCommand {
   std::string subject;  // a command or a topic; empty: the program
 };
 
-using Command =
-    std::variant<HelpCommand, BakeCommand, DryRunCommand, BatchCommand, ShardCommand, MergeCommand,
-                 MergeStepCommand, PlanCommand, RunCommand, SubmitCommand, InfoCommand,
-                 QueryCommand, EditCommand, ConvertCommand, PackCommand, UnpackCommand>;
+using Command = std::variant<HelpCommand, BakeCommand, DryRunCommand, BatchCommand, MergeCommand,
+                             PlanCommand, RunCommand, StepCommand, SubmitCommand, InfoCommand,
+                             QueryCommand, EditCommand, ConvertCommand, PackCommand, UnpackCommand>;
 
 // Each returns the exit code and throws Error for everything that fails.
 int run(const HelpCommand& command);
 int run(const BakeCommand& command);
 int run(const DryRunCommand& command);
 int run(const BatchCommand& command);
-int run(const ShardCommand& command);
 int run(const MergeCommand& command);
-int run(const MergeStepCommand& command);
 int run(const PlanCommand& command);
 int run(const RunCommand& command);
+int run(const StepCommand& command);
 int run(const SubmitCommand& command);
 int run(const InfoCommand& command);
 int run(const QueryCommand& command);
@@ -199,8 +187,8 @@ int predict(const DryRunCommand& command);
 std::vector<std::string> outputs_of(const BakeCommand& command);
 // The bakes of a list, parsed; none is started.
 std::vector<BakeCommand> bakes_of(const BatchCommand& batch);
-// Error (kUsage) if a path is a plan, not a scene or run; `option` (--shard, --step) is suggested.
-void reject_plans(const std::vector<std::string>& paths, const char* option);
+// Error (kUsage) if a path is a plan, not a scene or run.
+void reject_plans(const std::vector<std::string>& paths);
 // `svdag info` for plans, runs and scenes.
 void info_plan(const InfoCommand& command);
 void info_run(const InfoCommand& command);

@@ -24,11 +24,11 @@ void add_help(CLI::App* program, Command* command) {
   app->callback([=] { *command = HelpCommand{manual_of(*program), *subject}; });
 }
 
-// The line that continues an interrupted `svdag build`, for sh.
+// The line that continues an interrupted `svdag build` or `svdag batch`, for sh.
 std::string resuming_line(int argc, char** argv) {
   std::vector<std::string> words(argv, argv + argc);
   std::erase(words, "--restart");
-  // After "svdag build": an option behind "--" would be a file.
+  // After the command: an option behind "--" would be a file.
   if (std::find(words.begin(), words.end(), "--resume") == words.end())
     words.insert(words.begin() + 2, "--resume");
   return shell_words(words);
@@ -42,6 +42,7 @@ int run_command(int argc, char** argv) {
   app.require_subcommand(1);
   Command command;
   add_build(&app, &command);
+  add_batch(&app, &command);
   add_merge(&app, &command);
   add_plan(&app, &command);
   add_run(&app, &command);
@@ -65,7 +66,8 @@ int run_command(int argc, char** argv) {
     return std::visit([](const auto& parsed) { return run(parsed); }, command);
   } catch (Interrupted& interrupted) {
     static std::string message;  // lives until it is printed
-    const bool builds = argc > 1 && std::string_view(argv[1]) == "build";
+    const std::string_view name = argc > 1 ? argv[1] : "";
+    const bool builds = name == "build" || name == "batch";
     if (builds && interrupted.resumable && interrupted.resume_message == nullptr) {
       message = "stopped; to continue: " + resuming_line(argc, argv);
       interrupted.resume_message = message.c_str();

@@ -8,12 +8,14 @@
 
 namespace CLI {
 class App;
+class Option;
 class Option_group;
 }  // namespace CLI
 
 namespace svdag {
 
 void add_build(CLI::App* program, Command* command);
+void add_batch(CLI::App* program, Command* command);
 void add_merge(CLI::App* program, Command* command);
 void add_plan(CLI::App* program, Command* command);
 void add_run(CLI::App* program, Command* command);
@@ -40,6 +42,8 @@ void add_scene_options(CLI::App* app, SceneConfig* scene);
 void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std::string* scratch,
                           const char* own_scratch = "OUT.scratch",
                           const char* threads_text = "Threads (default: all processors)");
+// Adds --checkpoint.
+CLI::Option* add_checkpoint(CLI::App* app, double* seconds);
 // Adds --layers and --no-union.
 void add_layer_options(CLI::App* app, BuildConfig* build);
 // Adds the grid options of a bake; exactly one option of the returned group is required.

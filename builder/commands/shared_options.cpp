@@ -103,6 +103,17 @@ void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std:
       ->type_name("DIR");
 }
 
+CLI::Option* add_checkpoint(CLI::App* app, double* seconds) {
+  const auto read = [=](double given) {
+    if (!(given > 0)) fail_usage("--checkpoint: must be more than 0 seconds");
+    *seconds = given;
+  };
+  return app
+      ->add_option_function<double>("--checkpoint", read,
+                                    "Save work every SECONDS seconds (default: 30)")
+      ->type_name("SECONDS");
+}
+
 void add_layer_options(CLI::App* app, BuildConfig* build) {
   const auto read = [build](const std::string& name) {
     const auto known = std::ranges::find(kLayerKindNames, name);

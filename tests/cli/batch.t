@@ -1,4 +1,4 @@
-# svdag build --batch: lists of bakes.
+# svdag batch: lists of bakes.
 
 ## build_batch
 # Two good bakes; then a list with a bake that fails between them, with and without --keep-going.
@@ -8,7 +8,7 @@ $ cat > good.json <<'LIST'
 > [{"scene": "a.ply", "output": "a.svdag", "resolution": 256, "quiet": true},
 >  {"scene": ["a.ply", "b.ply"], "output": "ab.svdag", "voxel-size": 4, "rule": "thin"}]
 > LIST
-$ svdag build --batch good.json -q -j 1 --report all.json
+$ svdag batch good.json -q -j 1 --report all.json
 $ svdag build b.ply a.ply -o one.svdag -s 4 --rule thin -q
 $ cmp ab.svdag one.svdag
 $ python3 -c 'import json; r = json.load(open("all.json")); print(r["bakes"], [(d["output"], d["exit"], d["report"]["threads"]) for d in r["done"]])'
@@ -17,23 +17,23 @@ $ cat > bad.json <<'LIST'
 > [{"scene": "missing.ply", "output": "m.svdag", "resolution": "1K"},
 >  {"scene": "a.ply", "output": "a2.svdag", "resolution": "256"}]
 > LIST
-$ svdag build --batch bad.json 2>&1
+$ svdag batch bad.json 2>&1
 | svdag: bad.json: bake 1: missing.ply: cannot be opened: no such file or folder
 ? 3
-$ svdag build --batch bad.json --keep-going --report bad_report.json -q 2>&1
+$ svdag batch bad.json --keep-going --report bad_report.json -q 2>&1
 | svdag: m.svdag: missing.ply: cannot be opened: no such file or folder
 ? 3
 $ cmp a.svdag a2.svdag
 $ echo '[{"scene": "a.ply", "output": "x.svdag"}]' > incomplete.json
-$ svdag build --batch incomplete.json 2>&1
+$ svdag batch incomplete.json 2>&1
 | svdag: incomplete.json: bake 1: give one of --resolution or --voxel-size; see svdag build --help
 ? 2
 $ echo '[{"scene": "a.ply", "output": "x.svdag", "resolution": 64}, {"scene": "b.ply", "output": "x.svdag", "resolution": 64}]' > twice.json
-$ svdag build --batch twice.json 2>&1
+$ svdag batch twice.json 2>&1
 | svdag: twice.json: bake 2: x.svdag would be written twice: choose another name for one of the results
 ? 2
 $ echo '{"scene": 7' > broken.json
-$ svdag build --batch broken.json 2>&1
+$ svdag batch broken.json 2>&1
 | svdag: broken.json: is not valid JSON (at byte 13)
 ? 3
 $ ls
@@ -52,13 +52,13 @@ $ ls
 | twice.json
 
 ## build_batch_defaults
-# Options given with --batch are defaults of every bake; options that cannot apply to a list are rejected.
+# Options of the command line are defaults of every bake.
 $ svdag-scene city -n 3K -q -o a.ply
 $ echo '[{"scene": "a.ply", "output": "thin.svdag"},
 >        {"scene": "a.ply", "output": "said.svdag", "voxel-size": 4, "rule": "conservative"},
 >        {"scene": "a.ply", "output": "half.run", "part": "1/2", "quiet": false},
 >        {"scene": "a.ply", "output": "quiet.svdag", "quiet": true}]' > list.json
-$ svdag build --batch list.json -r 64 --rule thin --bounds=0,0,0,100,100,100 -j 1 --checkpoint 5 | sed 's/:.*//'
+$ svdag batch list.json -r 64 --rule thin --bounds=0,0,0,100,100,100 -j 1 --checkpoint 5 | sed 's/:.*//'
 | thin.svdag
 | said.svdag
 | half.run
@@ -70,49 +70,44 @@ $ cmp t.svdag quiet.svdag
 $ cmp s.svdag said.svdag
 $ echo '[{"scene": ["a.ply", "a.ply"], "output": "all.svdag", "exclude": ["a.*", "b.*"]},
 >        {"scene": "a.ply", "output": "none.svdag"}]' > names.json
-$ svdag build --batch names.json -r 64 --include '*.ply' --exclude 'a*' --keep-going 2>&1
+$ svdag batch names.json -r 64 --include '*.ply' --exclude 'a*' --keep-going 2>&1
 | svdag: all.svdag: --exclude 'b.*' matches nothing: the nearest names are file:a.ply (--allow-empty goes on)
 | svdag: none.svdag: a.ply: the scene has no triangles to bake
 | 0 of 2 baked, 2 failed
 ? 2
-$ for wrong in a.ply '-o x.svdag' '--shard 1' '--part 1/2' '-r 64 -s 1'; do
->   svdag build --batch list.json $wrong 2>&1 || echo "exit $?"
+$ for wrong in a.ply '-o x.svdag' '--part 1/2' '-r 64 -s 1'; do
+>   svdag batch list.json $wrong 2>&1 || echo "exit $?"
 > done
-| svdag: --batch: scenes are in the list: leave a.ply out
+| svdag: unexpected argument: a.ply; see svdag batch --help
 | exit 2
-| svdag: --batch: outputs are in the list: leave --output out
+| svdag: unknown option -o of svdag batch; see svdag batch --help
 | exit 2
-| svdag: --batch: a list has no shards: leave --shard out
+| svdag: unknown option --part of svdag batch; see svdag batch --help
 | exit 2
-| svdag: --batch: parts are in the list: leave --part out
+| svdag: give only one of --resolution or --voxel-size; see svdag batch --help
 | exit 2
-| svdag: give only one of --resolution or --voxel-size; see svdag build --help
-| exit 2
-$ for wrong in '"help": true' '"r": 64' '"shard": 1' '"keep-going": true' '"batch": "list.json"'; do
+$ for wrong in '"help": true' '"r": 64' '"json": true' '"report": "-"' '"keep-going": true'; do
 >   echo '[{"scene": "a.ply", "output": "x.svdag", "resolution": 64, '"$wrong"'}]' > wrong.json
->   svdag build --batch wrong.json 2>&1 || echo "exit $?"
+>   svdag batch wrong.json 2>&1 || echo "exit $?"
 > done
-| svdag: wrong.json: bake 1: a bake in a list cannot have the option help: see svdag build --help
+| svdag: wrong.json: bake 1: help, dry-run and json are not options of one bake in a list: give them to svdag batch
 | exit 2
 | svdag: wrong.json: bake 1: "r": use the long name of the option
 | exit 2
-| svdag: wrong.json: bake 1: a list of bakes cannot hold a shard: svdag run bakes a plan
+| svdag: wrong.json: bake 1: help, dry-run and json are not options of one bake in a list: give them to svdag batch
 | exit 2
-| svdag: wrong.json: bake 1: keep-going applies to the whole list: pass it with --batch
+| svdag: wrong.json: bake 1: help, dry-run and json are not options of one bake in a list: give them to svdag batch
 | exit 2
-| svdag: wrong.json: bake 1: a list of bakes cannot hold another list
+| svdag: wrong.json: bake 1: unknown option --keep-going of svdag build; see svdag build --help
 | exit 2
 $ echo '[{"scene": "a.ply", "output": "x.svdag", "skip-invalid": false}]' > wrong.json
-$ svdag build --batch wrong.json -r 64 --skip-invalid 2>&1
-| svdag: wrong.json: bake 1: "skip-invalid": false cannot switch off the --skip-invalid given with --batch: leave one of them out
+$ svdag batch wrong.json -r 64 --skip-invalid 2>&1
+| svdag: wrong.json: bake 1: "skip-invalid": false cannot switch off the --skip-invalid of the command line: leave one of them out
 ? 2
 $ echo '[{"scene": "a.ply", "output": "small.svdag", "cache-size": "1M"}]' > small.json
-$ svdag build --batch small.json -r 64 --cache cells -q
-$ svdag build --batch small.json -r 64 -q 2>&1
+$ svdag batch small.json -r 64 --cache cells -q
+$ svdag batch small.json -r 64 -q 2>&1
 | svdag: small.json: bake 1: --cache-size requires --cache; see svdag build --help
-? 2
-$ svdag build a.ply -o x.svdag -r 64 --keep-going 2>&1
-| svdag: --keep-going: applies only to --batch
 ? 2
 $ ls
 | a.ply
@@ -130,13 +125,13 @@ $ ls
 | wrong.json
 
 ## build_batch_dry_run
-# --dry-run with --batch predicts every bake and writes nothing; it applies to the whole list.
+# --dry-run predicts every bake and writes nothing; it applies to the whole list.
 $ svdag-scene sheet -q -o a.ply
 $ svdag build a.ply -r 64 -o old.svdag -q
 $ cp old.svdag kept.svdag
 $ echo '[{"scene": "a.ply", "output": "old.svdag", "resolution": 128},
 >        {"scene": "a.ply", "output": "new.svdag", "resolution": 256}]' > list.json
-$ svdag build --batch list.json --dry-run -j 1 -m 200M
+$ svdag batch list.json --dry-run -j 1 -m 200M
 |* old.svdag: 128^3, 2 triangles in * cells
 |*   about * CPU seconds, * s on 1 thread
 |*   a file of about * *, scratch of about 0 bytes
@@ -147,12 +142,12 @@ $ svdag build --batch list.json --dry-run -j 1 -m 200M
 |*   at most * * of memory with --memory *M
 | 2 of 2 predicted, 0 failed
 $ cmp old.svdag kept.svdag
-$ svdag build --batch list.json --dry-run --report r.json 2>&1
-| svdag: --report: --dry-run writes no report: leave --report out
+$ svdag batch list.json --dry-run --report r.json 2>&1
+| svdag: --dry-run cannot be combined with --report; see svdag batch --help
 ? 2
 $ echo '[{"scene": "a.ply", "output": "old.svdag", "resolution": 128, "dry-run": true}]' > one.json
-$ svdag build --batch one.json 2>&1
-| svdag: one.json: bake 1: dry-run applies to the whole list: pass it with --batch
+$ svdag batch one.json 2>&1
+| svdag: one.json: bake 1: help, dry-run and json are not options of one bake in a list: give them to svdag batch
 ? 2
 $ cmp old.svdag kept.svdag
 $ ls
@@ -172,16 +167,16 @@ $ cat > list.json <<'LIST'
 >  {"scene": "a.ply", "output": "thin.svdag", "resolution": "256", "rule": "thin", "memory": "1G"}]
 > LIST
 $ done_in() { python3 -c 'import json, sys; r = json.load(sys.stdin); print([(d["output"], d["exit"], d["report"]["memory"]["peak_counted"] <= 1 << 28) for d in r["done"]])'; }
-$ svdag build --batch list.json -P 3 -m 768M --json | done_in
+$ svdag batch list.json -P 3 -m 768M --json | done_in
 | [('a.svdag', 0, True), ('b.svdag', 0, True), ('thin.svdag', 0, True)]
 $ mkdir at_once
 $ mv *.svdag at_once
-$ svdag build --batch list.json -q --report - | done_in
+$ svdag batch list.json -q --report - | done_in
 | [('a.svdag', 0, True), ('b.svdag', 0, True), ('thin.svdag', 0, True)]
 $ for file in *.svdag; do cmp $file at_once/$file; done
 # A failure ends the list; bakes that have begun are finished.
 $ echo '[{"scene": "a.ply", "output": "c.svdag", "resolution": "64"}, {"scene": "b.ply", "output": "d/d.svdag", "resolution": "64"}]' > bad.json
-$ { svdag build --batch bad.json -P 2 2>&1 || echo "exit $?"; } | sed "s|, [0-9.]* s\$||"
+$ { svdag batch bad.json -P 2 2>&1 || echo "exit $?"; } | sed "s|, [0-9.]* s\$||"
 | svdag: d/d.svdag: d: cannot write in this folder: no such file or folder
 | c.svdag: 64^3, 6,000 triangles, 15,996 voxels, 547 nodes, 7.8 KiB (4.01 bits per voxel)
 | 1 of 2 baked, 1 failed
@@ -191,13 +186,10 @@ $ ls *.svdag
 | b.svdag
 | c.svdag
 | thin.svdag
-$ svdag build a.ply -o x.svdag -r 64 -P 2 2>&1
-| svdag: --parallel: applies only to --batch
-? 2
 # They may share a cache.
-$ svdag build --batch list.json -P 3 -q --cache cells
+$ svdag batch list.json -P 3 -q --cache cells
 $ for file in at_once/*.svdag; do cmp $file ${file#at_once/}; done
-$ svdag build --batch list.json -q --cache cells --json | python3 -c 'import json, sys; r = json.load(sys.stdin); print(all(d["report"]["cache_hits"] == d["report"]["cells"] for d in r["done"]))'
+$ svdag batch list.json -q --cache cells --json | python3 -c 'import json, sys; r = json.load(sys.stdin); print(all(d["report"]["cache_hits"] == d["report"]["cells"] for d in r["done"]))'
 | True
 
 ## build_batch_stopped
@@ -205,11 +197,11 @@ $ svdag build --batch list.json -q --cache cells --json | python3 -c 'import jso
 $ svdag-scene scan -n 70K -q -o s.ply
 $ echo '[{"scene": "s.ply", "output": "a.svdag", "resolution": "64"},
 >        {"scene": "s.ply", "output": "z.svdag", "resolution": "8K", "memory": "8M"}]' > l.json
-$ env --default-signal=INT svdag build --batch l.json --report r.json -q &  # background jobs of a shell ignore SIGINT
+$ env --default-signal=INT svdag batch l.json --report r.json -q &  # background jobs of a shell ignore SIGINT
 $ until ls z.svdag.scratch/journal >/dev/null 2>&1; do sleep 0.02; done
 $ sleep 0.1
 $ kill -s INT $! && wait $!
-! svdag: stopped; to continue: svdag build --resume --batch l.json --report r.json -q
+! svdag: stopped; to continue: svdag batch --resume l.json --report r.json -q
 ? 130
 $ /usr/bin/python3 -c "
 > import json
@@ -222,7 +214,7 @@ $ /usr/bin/python3 -c "
 $ svdag-scene sheet -q -o a.ply
 $ svdag-scene city -n 6K -q -o b.ply
 $ list() { echo '[{"scene": "a.ply", "output": "a.svdag", "resolution": "64"}, {"scene": "b.ply", "output": "b.svdag", "resolution": "'"$1"'"}]' > list.json; }
-$ bake() { svdag build --batch list.json --report r.json "$@" | sed 's/: .*s$/: baked/' && cp r.json last.json; }
+$ bake() { svdag batch list.json --report r.json "$@" | sed 's/: .*s$/: baked/' && cp r.json last.json; }
 $ list 64
 $ bake
 | a.svdag: baked

@@ -56,10 +56,10 @@ $ svdag build s.gltf -r 16 -o s.svdag --report ./s.bin 2>&1
 ? 2
 $ echo '[{"scene": "s.gltf", "resolution": 16, "output": "s.svdag"},
 >        {"scene": "s.gltf", "resolution": 16, "output": "s.bin"}]' > l.json
-$ svdag build --batch l.json 2>&1
+$ svdag batch l.json 2>&1
 | svdag: l.json: bake 2: s.bin is also an input, which is never overwritten: choose another output
 ? 2
-$ svdag build --batch l.json --report s.bin 2>&1
+$ svdag batch l.json --report s.bin 2>&1
 | svdag: l.json: bake 2: s.bin is also an input, which is never overwritten: choose another output
 ? 2
 $ cmp s.bin kept.bin
@@ -86,7 +86,7 @@ $ svdag-scene rectangle -q -o h2.ply
 $ cp h2.ply kept.ply
 $ mkdir sub
 $ refused() { "$@" 2>&1 && echo "not refused: $*" || echo "exit $?"; }
-$ list() { echo "[$1]" > l.json; cp l.json l.kept; refused svdag build --batch l.json $2; cmp l.json l.kept; }
+$ list() { echo "[$1]" > l.json; cp l.json l.kept; refused svdag batch l.json $2; cmp l.json l.kept; }
 $ A='"scene": "h.ply", "resolution": 64, "output": "a.svdag"'
 $ refused svdag build h.ply -r 64 -o x.svdag --report ./x.svdag
 | svdag: ./x.svdag would be written twice: choose another name for one of the results
@@ -126,7 +126,7 @@ $ cp one.svdag a.svdag
 $ ln a.svdag b.svdag
 $ ln -s a.svdag c.svdag
 $ echo "[{$A}, {\"scene\": \"h.ply\", \"resolution\": 32, \"output\": \"b.svdag\"}, {\"scene\": \"h.ply\", \"resolution\": 16, \"output\": \"c.svdag\"}]" > links.json
-$ svdag build --batch links.json -q
+$ svdag batch links.json -q
 $ cmp one.svdag a.svdag
 $ stat -c '%n %h %F' a.svdag b.svdag c.svdag
 | a.svdag 1 regular file
@@ -162,7 +162,7 @@ $ svdag import a.npz -o a.svdag -n
 ? 2
 $ cmp a.svdag kept.svdag
 $ echo '[{"scene": "s.ply", "output": "a.svdag"}, {"scene": "s.ply", "output": "b.svdag"}]' > list.json
-$ svdag build --batch list.json -r 32 -n | tail -3 | sed "s|, [0-9.]* s$||"
+$ svdag batch list.json -r 32 -n | tail -3 | sed "s|, [0-9.]* s$||"
 | a.svdag: already exists, skipped
 | b.svdag: 32^3, 100 triangles, 3 voxels, 10 nodes, 1.6 KiB (4.46e+03 bits per voxel)
 | 1 of 2 baked, 0 failed, 1 skipped
@@ -214,7 +214,7 @@ $ refused svdag build r.ply -r 64 -o new.svdag --report nowhere/r.json
 | exit code 4
 ! svdag: nowhere: cannot write in this folder: no such file or folder
 $ echo '[{"scene": "r.ply", "output": "new.svdag", "resolution": 64}]' >list.json
-$ refused svdag build --batch list.json --report device.svdag
+$ refused svdag batch list.json --report device.svdag
 | exit code 4
 ! svdag: device.svdag: is not a regular file and cannot be replaced: choose another name
 $ refused svdag build r.ply -r 64 -o pipe.svdag --dry-run

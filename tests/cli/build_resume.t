@@ -12,7 +12,7 @@ $ left s.svdag.dry-run.scratch
 $ svdag build s.ply -r 64 -o s.svdag -q --dry-run
 $ echo '[{"scene": "s.ply", "output": "s.svdag", "resolution": 64}]' > list.json
 $ left s.svdag.dry-run.scratch
-$ svdag build --batch list.json -q
+$ svdag batch list.json -q
 $ find . -name '*.scratch'
 
 # With --scratch the folder has the name that the dry run chose.
@@ -92,11 +92,11 @@ $ stop svdag build s.ply -r 8K -m 8M -o z.svdag -q --restart
 ! svdag: stopped; to continue: svdag build --resume s.ply -r 8K -m 8M -o z.svdag -q
 $ rm -r z.svdag.scratch
 $ echo '[{"scene": "s.ply", "output": "z.svdag", "resolution": "8K", "memory": "8M", "restart": true}]' > l.json
-$ stop svdag build --batch l.json -q
+$ stop svdag batch l.json -q
 | exit code 130
 ! svdag: stopped; to continue, remove "restart" from the list and repeat the command with --resume
 $ rm -r z.svdag.scratch
 $ echo '[{"scene": "s.ply", "output": "z.svdag", "resolution": "8K", "memory": "8M"}]' > l.json
-$ stop svdag build --batch l.json -q --restart
+$ stop svdag batch l.json -q --restart
 | exit code 130
-! svdag: stopped; to continue: svdag build --resume --batch l.json -q
+! svdag: stopped; to continue: svdag batch --resume l.json -q

@@ -37,9 +37,6 @@ $ svdag convert plain.svdag -o other.svdag
 $ svdag build city.ply -o a.run -r 64 --layout compact
 ! svdag: --layout: a .run has no layout: choose it when merging
 ? 2
-$ svdag plan city.ply -q -o city.plan -r 64 --shards 1 && svdag merge city.plan --step final --layout compact
-! svdag: --layout: a plan makes plain files: convert its result with svdag convert
-? 2
 
 ## edit
 # Union, intersection, difference, crop and a coarser level: the same bytes as a bake of these voxels.

@@ -477,7 +477,7 @@ $ svdag build s.gltf -o x.svdag -r 16 --layers object | grep texture || echo "no
 | no texture is read
 # Another image is another file, with the cells of the first.
 $ echo '[{"scene": "s.obj", "output": "b.svdag", "resolution": "16"}]' > list.json
-$ bake() { svdag build --batch list.json --layers material --report batch.json --cache cells | sed '/no colour/d; s/: .*s$/: baked/'; }
+$ bake() { svdag batch list.json --layers material --report batch.json --cache cells | sed '/no colour/d; s/: .*s$/: baked/'; }
 $ bake
 | b.svdag: baked
 | 1 of 1 baked, 0 failed

@@ -24,7 +24,7 @@ $ svdag plan c.ply -r 256 --shards 2 -o p -q
 $ mkdir -m 700 p/runs/shard-1.run.scratch
 $ flock p/runs/shard-1.run.scratch/owner sh -c 'touch held; for i in $(seq 200); do [ -e p/runs/shard-2.json ] || sleep 0.1; done' &
 $ until [ -e held ]; do sleep 0.02; done
-$ svdag build p --shard 1
+$ svdag run p --step shard-1
 !* svdag: */p/runs/shard-1.run.scratch: another process is running shard-1 in this scratch folder: wait for it
 ? 75
 $ svdag run p -j 1
@@ -90,10 +90,10 @@ $ sed 's/"min": [0-9]*/"min": N/' t.json
 |      "onRun": {
 |       "command": "{{Param.Svdag}}",
 |       "args": [
-|        "build",
+|        "run",
 |        "{{Param.Plan}}",
-|        "--shard",
-|        "{{Task.Param.Number}}"
+|        "--step",
+|        "shard-{{Task.Param.Number}}"
 |       ],
 |       "timeout": 600
 |      }
@@ -128,7 +128,7 @@ $ sed 's/"min": [0-9]*/"min": N/' t.json
 |      "onRun": {
 |       "command": "{{Param.Svdag}}",
 |       "args": [
-|        "merge",
+|        "run",
 |        "{{Param.Plan}}",
 |        "--step",
 |        "merge-{{Task.Param.Number}}"
@@ -164,9 +164,9 @@ $ svdag info p | grep -v input
 |*     6 merges: * CPU seconds, the longest takes * s; memory at most * *; output * *
 |*   with a machine per step: * s
 |   11 of 11 steps are done
-$ svdag build p --shard 2
+$ svdag run p --step shard-2
 |* */p/runs/shard-2.run: already done, * *, content 3e2b85c00d01f6f5c3a35e5a8906374c
-$ svdag merge p --step merge-4 -q
+$ svdag run p --step merge-4 -q
 $ svdag run p -j 2 | grep -v planned | LC_ALL=C sort
 |* */p/c.svdag
 |* 11 of 11 steps done (11 already done) in * s: 0.0 CPU seconds, at most 0 bytes of memory in a step
@@ -206,13 +206,13 @@ $ stop() {  # SIGNAL FILES COMMAND...: sends the signal when one of the files ex
 > }
 $ svdag-scene scan -n 70K -q -o s.ply
 $ svdag plan s.ply -r 8K --shards 2 --scratch . -o p -q
-$ stop INT 'p/runs/*.scratch/owner' svdag build p --shard 1 -q
+$ stop INT 'p/runs/*.scratch/owner' svdag run p --step shard-1 -q
 | exit code 130
-!* svdag: shard-1 stopped; no work was saved; to begin again: svdag build /*/p --shard 1
-$ stop TERM '*.scratch/journal' svdag build p --shard 1 -q -m 8M --scratch .
+!* svdag: shard-1 stopped; no work was saved; to begin again: svdag run /*/p --step shard-1
+$ stop TERM '*.scratch/journal' svdag run p --step shard-1 -q -m 8M --scratch .
 | exit code 143
-!* svdag: shard-1 stopped; its work is saved; to continue: svdag build /*/p --shard 1 --scratch=. -m 8388608
-$ svdag build p --shard 1 -q --scratch .
+!* svdag: shard-1 stopped; its work is saved; to continue: svdag run /*/p --step shard-1 --scratch=. -m 8388608
+$ svdag run p --step shard-1 -q --scratch .
 $ stop INT '*.scratch/owner' svdag run p -q -j 2 --scratch .
 | exit code 130
 ! svdag: stopped; to continue: svdag run p -j 2 --scratch=.
@@ -243,6 +243,6 @@ $ svdag plan c.ply -r 512 --shards 2 -o p -v -m 200M
 |*   with a machine per step: * s
 |
 |   step            CPU s  seconds     memory     output    scratch  command
-|*   shard-1 * * * * * *    0 bytes  svdag build */p --shard 1
-|*   shard-2 * * * * * *    0 bytes  svdag build */p --shard 2
-|*   merge-1 * * * * * *    0 bytes  svdag merge */p --step merge-1
+|*   shard-1 * * * * * *    0 bytes  svdag run */p --step shard-1
+|*   shard-2 * * * * * *    0 bytes  svdag run */p --step shard-2
+|*   merge-1 * * * * * *    0 bytes  svdag run */p --step merge-1

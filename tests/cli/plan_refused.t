@@ -21,7 +21,7 @@ $ for edit in 's/"voxel_size": /"voxel_size": 1/' 's/"rule": "conservative"/"rul
 | exit 3
 |* svdag: */p/plan.json: was changed after it was planned: create the plan again with svdag plan
 | exit 3
-$ svdag build p --shard 1 2>&1
+$ svdag run p --step shard-1 2>&1
 |* svdag: */p/plan.json: was changed after it was planned: create the plan again with svdag plan
 ? 3
 $ svdag info p 2>&1
@@ -43,17 +43,17 @@ $ svdag-scene city -n 2K --seed 2 -q -o b.ply
 $ svdag plan a.ply -s 0.5 --shards 1 -o p -q
 $ svdag plan b.ply -s 0.5 --shards 1 -o q -q
 $ svdag run q -q
-$ svdag build p --shard 1 -q
+$ svdag run p --step shard-1 -q
 $ cp q/runs/shard-1.run p/runs/shard-1.run
-$ svdag merge p --step merge-1
+$ svdag run p --step merge-1
 !* svdag: */p/runs/shard-1.run: not the output of step shard-1 of this plan (of another or older plan, or damaged): run step shard-1 again
 ? 3
 
 ## plan_merge_too_early
 $ svdag-scene speck -n 100 -q -o s.ply
 $ svdag plan s.ply -r 64 --shards 2 -o p -q
-$ svdag build p --shard 1 -q
-$ svdag merge p --step merge-1
+$ svdag run p --step shard-1 -q
+$ svdag run p --step merge-1
 !* svdag: */p/runs/shard-2.run: is missing: run step shard-2 of the plan first
 ? 3
 
@@ -63,19 +63,19 @@ $ refused() { "$@" 2>&1 || echo "exit $?"; }
 $ svdag-scene speck -n 100 -q -o s.ply
 $ svdag plan s.ply -r 64 --shards 2 -o p -q
 $ refused svdag build p -o z.svdag -r 64
-| svdag: p is a plan: choose one of its steps with --shard, or run them all with svdag run
+| svdag: p is a plan: bake it with svdag run
 | exit 2
 $ refused svdag build s.ply p -o z.svdag -r 64 --dry-run
-| svdag: p is a plan: choose one of its steps with --shard, or run them all with svdag run
+| svdag: p is a plan: bake it with svdag run
 | exit 2
-$ refused svdag build p --shard 1 s.ply
-| svdag: --shard: takes one plan, 2 paths are given: name only the plan
+$ refused svdag run p --step shard-1 s.ply
+| svdag: unexpected argument: s.ply; see svdag run --help
 | exit 2
 $ refused svdag merge p -o z.svdag
-| svdag: p is a plan: choose one of its steps with --step, or run them all with svdag run
+| svdag: p is a plan: bake it with svdag run
 | exit 2
-$ refused svdag merge p p --step merge-1
-| svdag: --step: takes one plan, 2 paths are given: name only the plan
+$ refused svdag merge p p -o z.svdag
+| svdag: p is a plan: bake it with svdag run
 | exit 2
 $ refused svdag submit p --engine slurm -o t.json
 | svdag: --engine slurm submits jobs and writes no template: leave --output out
@@ -102,13 +102,13 @@ $ refused svdag info p/s.svdag --include x
 $ refused svdag info p/runs/shard-1.run --sandbox
 | svdag: --sandbox: p/runs/shard-1.run is a run
 | exit 2
-$ refused svdag build p --shard 1 -o z.svdag
+$ refused svdag run p --step shard-1 -o z.svdag
 | svdag: z.svdag: shard-1 makes a run: choose an output that ends in .run
 | exit 2
-$ refused svdag merge p --step merge-1 -o z.run
+$ refused svdag run p --step merge-1 -o z.run
 | svdag: z.run: merge-1 makes a .svdag: choose an output that does not end in .run
 | exit 2
-$ refused svdag merge p --step merge-1 -o z.vdb
+$ refused svdag run p --step merge-1 -o z.vdb
 | svdag: z.vdb: the output must end in .svdag or .run: use svdag export for other formats
 | exit 2
 $ svdag info p | tail -n 1
@@ -120,8 +120,8 @@ $ ls
 ## plan_no_shard
 $ svdag-scene speck -n 100 -q -o s.ply
 $ svdag plan s.ply -r 64 --shards 2 -o p -q
-$ svdag build p --shard 3
-! svdag: --shard 3: the plan has shards 1 to 2
+$ svdag run p --step shard-3
+! svdag: the plan has no step shard-3: svdag info PLAN --levels lists its steps
 ? 2
 
 ## plan_not_utf8
@@ -155,7 +155,7 @@ $ cp p/plan.json kept.json
 $ svdag run p -j 1 2>&1
 |* svdag: */p/plan.json: written by another version of svdag: create the plan again with svdag plan
 ? 3
-$ svdag build p --shard 1 2>&1
+$ svdag run p --step shard-1 2>&1
 |* svdag: */p/plan.json: written by another version of svdag: create the plan again with svdag plan
 ? 3
 $ svdag info p 2>&1
@@ -218,20 +218,19 @@ $ svdag plan triangles.ply -r 64 --shards 2 -o p 2>&1
 |* svdag: */p: contains notes.txt, which is not a file of a plan: choose another folder
 ? 2
 
-## plan_shard_of_scene
+## plan_step_of_scene
 $ svdag-scene speck -n 100 -q -o s.ply
-$ svdag build s.ply --shard 1
-! svdag: --shard: s.ply is not a plan folder (create one with svdag plan)
-? 2
+$ svdag run s.ply --step shard-1
+! svdag: s.ply: not a plan folder: plan.json is missing (create one with svdag plan)
+? 3
 
-## plan_shard_options
-# The plan of a shard sets most options: those that the shard would ignore are rejected.
+## plan_step_options
+# A step has only the options that it honours, since the plan sets the others; those need a step.
 $ svdag-scene speck -n 100 -q -o s.ply
 $ svdag plan s.ply -r 64 --shards 2 -o p -q
-$ for options in '-r 64' '-s 0.1' '--rule thin' '--bounds 0,0,0,1,1,1' '--include x' '--exclude x' '--skip-invalid' \
->                '--sandbox' '--part 1/2' '--cache c' '--cache c --cache-size 1G' '--report r.json' '--dry-run' \
->                '--batch l.json' '--keep-going' '--no-plane-memo' '--vectors plain'; do
->   svdag build p --shard 1 $options || echo "exit code $?"
+$ for options in '--step shard-1 -r 64' '--step shard-1 --resume' '--step shard-0' '--step nonsense' '-o o.run' '-m 64M' \
+>                '--checkpoint 5' --restart -v; do
+>   svdag run p $options || echo "exit code $?"
 > done
 | exit code 2
 | exit code 2
@@ -242,50 +241,33 @@ $ for options in '-r 64' '-s 0.1' '--rule thin' '--bounds 0,0,0,1,1,1' '--includ
 | exit code 2
 | exit code 2
 | exit code 2
-| exit code 2
-| exit code 2
-| exit code 2
-| exit code 2
-| exit code 2
-| exit code 2
-| exit code 2
-| exit code 2
-! svdag: --resolution: the plan of a shard sets this: leave the option out
-! svdag: --voxel-size: the plan of a shard sets this: leave the option out
-! svdag: --rule: the plan of a shard sets this: leave the option out
-! svdag: --bounds: the plan of a shard sets this: leave the option out
-! svdag: --include: the plan of a shard sets this: leave the option out
-! svdag: --exclude: the plan of a shard sets this: leave the option out
-! svdag: --skip-invalid: the plan of a shard sets this: leave the option out
-! svdag: --sandbox: the plan of a shard sets this: leave the option out
-! svdag: --part: the plan of a shard sets this: leave the option out
-! svdag: --cache: the plan of a shard sets this: leave the option out
-! svdag: --cache: the plan of a shard sets this: leave the option out
-! svdag: --report: the plan of a shard sets this: leave the option out
-! svdag: --dry-run: the plan of a shard sets this: leave the option out
-! svdag: --batch: the plan of a shard sets this: leave the option out
-! svdag: --keep-going: the plan of a shard sets this: leave the option out
-! svdag: --no-plane-memo: the plan of a shard sets this: leave the option out
-! svdag: --vectors: the plan of a shard sets this: leave the option out
+! svdag: unknown option -r of svdag run; see svdag run --help
+! svdag: unknown option --resume of svdag run; see svdag run --help
+! svdag: the plan has no step shard-0: svdag info PLAN --levels lists its steps
+! svdag: the plan has no step nonsense: svdag info PLAN --levels lists its steps
+! svdag: --output requires --step; see svdag run --help
+! svdag: --memory requires --step; see svdag run --help
+! svdag: --checkpoint requires --step; see svdag run --help
+! svdag: --restart requires --step; see svdag run --help
+! svdag: --verbose requires --step; see svdag run --help
 $ ls
 | p
 | s.ply
-$ svdag build p --shard 1 -o o.run --scratch . -m 64M -j 1 --checkpoint 5 --restart --no-progress -v | grep -v seconds
+$ svdag run p --step shard-1 -o o.run --scratch . -m 64M -j 1 --checkpoint 5 --restart --no-progress -v | grep -v seconds
 | o.run: shard-1 is done, 1.6 KiB, content 74e4d98906c530d910ad91e145882e0b
-$ svdag build p --shard 1 --resume -q
 
 ## plan_step_over_files
 # A step writes to the requested output, but never over a file of the plan, of another step, or of the scene.
 $ svdag-scene sheet -q -o s.ply
 $ svdag plan s.ply -r 64 --shards 2 -o p -q
-$ svdag build p --shard 1 -q
-$ svdag build p --shard 2 -q
+$ svdag run p --step shard-1 -q
+$ svdag run p --step shard-2 -q
 $ cp -r p kept
 $ cp s.ply kept.ply
 $ ln p/index link
 $ for output in s.ply p/plan.json p/index link p/triangles p/runs/shard-2.run p/runs/shard-1.json p/runs/merge-1.json \
 >               p/s.svdag; do
->   svdag build p --shard 1 -o $output 2>&1 || echo "exit $?"
+>   svdag run p --step shard-1 -o $output 2>&1 || echo "exit $?"
 > done
 | svdag: s.ply is also an input, which is never overwritten: choose another output
 | exit 2
@@ -306,7 +288,7 @@ $ for output in s.ply p/plan.json p/index link p/triangles p/runs/shard-2.run p/
 | svdag: p/s.svdag is also an input, which is never overwritten: choose another output
 | exit 2
 $ for output in ./s.ply p/plan.json p/triangles p/runs/shard-1.run p/runs/shard-2.json; do
->   svdag merge p --step merge-1 -o $output 2>&1 || echo "exit $?"
+>   svdag run p --step merge-1 -o $output 2>&1 || echo "exit $?"
 > done
 | svdag: ./s.ply is also an input, which is never overwritten: choose another output
 | exit 2
@@ -320,9 +302,9 @@ $ for output in ./s.ply p/plan.json p/triangles p/runs/shard-1.run p/runs/shard-
 | exit 2
 $ diff -r kept p
 $ cmp kept.ply s.ply
-$ svdag build p --shard 1 -o ./p/runs/shard-1.run -q
-$ svdag build p --shard 2 -o mine.run -q
-$ svdag merge p --step merge-1 -o mine.svdag -q
-$ svdag merge p --step merge-1 -o p/s.svdag -q
+$ svdag run p --step shard-1 -o ./p/runs/shard-1.run -q
+$ svdag run p --step shard-2 -o mine.run -q
+$ svdag run p --step merge-1 -o mine.svdag -q
+$ svdag run p --step merge-1 -o p/s.svdag -q
 $ cmp mine.svdag p/s.svdag
 $ cmp mine.run p/runs/shard-2.run

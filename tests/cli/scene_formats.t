@@ -198,7 +198,7 @@ $ cat > list.json <<'LIST'
 > [{"scene": "bad.obj", "output": "bad.svdag", "resolution": 64},
 >  {"scene": "good.ply", "output": "good.svdag", "resolution": 64}]
 > LIST
-$ svdag build --batch list.json --keep-going --report batch.json -q 2> /dev/null
+$ svdag batch list.json --keep-going --report batch.json -q 2> /dev/null
 ? 3
 $ grep '"exit"\|"error"\|"bakes"' batch.json
 |   "bakes": 2,

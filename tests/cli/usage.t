@@ -51,8 +51,8 @@ $ for option in --report --scratch --cache; do
 | exit 2
 | svdag: --cache: the value is empty; see svdag build --help
 | exit 2
-$ refused svdag build --batch ''
-| svdag: --batch: the value is empty; see svdag build --help
+$ refused svdag batch ''
+| svdag: LIST: the name is empty; see svdag batch --help
 | exit 2
 $ refused svdag plan r.ply -r 64 --shards 1 -o ''
 | svdag: -o: the value is empty; see svdag plan --help
@@ -130,7 +130,7 @@ $ refused svdag-verify render c.svdag -o c.jpg
 | svdag-verify: c.jpg: pictures are PNG: choose a name in .png
 | exit 2
 $ echo '[{"scene": "c.ply", "output": "d.svdag", "reslution": 64}]' >l.json
-$ refused svdag build --batch l.json
+$ refused svdag batch l.json
 | svdag: l.json: bake 1: unknown option --reslution of svdag build; did you mean --resolution?
 | exit 2
 $ svdag build c.ply -r 64 -o e.svdag --bounds=0,500,0,4,503,4 | grep "no voxel"
@@ -315,9 +315,6 @@ $ refused svdag-verify render r.svdag -o r.png --fly 0
 | exit 2
 $ refused svdag merge r.run -o ''
 | svdag: -o: the value is empty; see svdag merge --help
-| exit 2
-$ refused svdag build r.ply --shard 0
-| svdag: --shard 0: shards are numbered from 1
 | exit 2
 $ refused svdag build r.ply -r 64 -o x.svdag --checkpoint soon
 | svdag: --checkpoint: "soon" is not a number; see svdag build --help

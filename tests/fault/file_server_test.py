@@ -18,7 +18,7 @@ import shim
 from shim import Fault
 
 SVDAG = bakes.BUILD / "svdag"
-STEPS = [["build", "--shard", "1"], ["build", "--shard", "2"], ["merge", "--step", "merge-1"]]
+STEPS = ["shard-1", "shard-2", "merge-1"]
 
 
 class Farm:
@@ -40,7 +40,7 @@ class Farm:
 
     def step(self, step, fault, local_scratch=True):
         scratch = ["--scratch", self.local] if local_scratch else []
-        return shim.run(bakes.SHIM, [SVDAG, step[0], "plan", *step[1:], "-q", "-m", "3M", *scratch], self.served, fault)
+        return shim.run(bakes.SHIM, [SVDAG, "run", "plan", "--step", step, "-q", "-m", "3M", *scratch], self.served, fault)
 
     def failures(self, fault):
         """Failures of all steps with the fault: each must succeed, and the output equal that of one bake."""
@@ -109,12 +109,12 @@ def check_lost_calls(report, farm):
         for before in STEPS[:number]:
             farm.step(before, Fault())
         counts = farm.step(step, Fault()).counts
-        output = farm.served / "plan" / (f"runs/shard-{number + 1}.run" if number < 2 else "scene.svdag")
+        output = farm.served / "plan" / (f"runs/{step}.run" if number < 2 else "scene.svdag")
         expected = output.read_bytes()
         for kind in ("open", "read"):
             for k in range(1, counts[kind] + 1):
                 error = errno.ESTALE if k % 2 else errno.ETIMEDOUT
-                for path in [output, *farm.served.glob(f"plan/runs/{step[-1] if number == 2 else f'shard-{number + 1}'}.*")]:
+                for path in [output, *farm.served.glob(f"plan/runs/{step}.*")]:
                     path.unlink(missing_ok=True)
                 outcome = farm.step(step, Fault(kind, k, str(error)))
                 fired += bool(outcome.fired)

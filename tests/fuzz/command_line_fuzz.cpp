@@ -12,24 +12,21 @@ namespace {
 constexpr size_t kMaxWords = 64;
 
 // All commands, constructed once because that takes ten times as long as parsing a line. CLI11
-// resets the values of the last line, but not options that it made optional (--batch needs no
-// grid): these are made required again.
+// resets the values of the last line.
 class Program {
  public:
   Program() : app_("", "svdag") {
     add_build(&app_, &command_);
+    add_batch(&app_, &command_);
     add_merge(&app_, &command_);
     add_plan(&app_, &command_);
     add_run(&app_, &command_);
     add_submit(&app_, &command_);
     add_info(&app_, &command_);
-    note_required(&app_);
   }
 
   void parse(std::vector<std::string> words) {
     command_ = {};
-    for (CLI::Option* option : required_) option->required();
-    for (const auto& [group, options] : groups_) group->require_option(int(options));
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
     try {
@@ -46,18 +43,7 @@ class Program {
   }
 
  private:
-  void note_required(CLI::App* app) {
-    for (CLI::Option* option : app->get_options()) {
-      if (option->get_required()) required_.push_back(option);
-    }
-    if (app->get_require_option_min() > 0) groups_.emplace_back(app, app->get_require_option_min());
-    for (CLI::App* inner : app->get_subcommands([](CLI::App*) { return true; }))
-      note_required(inner);
-  }
-
   CLI::App app_;
-  std::vector<CLI::Option*> required_;
-  std::vector<std::pair<CLI::App*, size_t>> groups_;  // with how many of their options are required
   Command command_;
 };
 

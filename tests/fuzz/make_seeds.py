@@ -251,7 +251,7 @@ def main(programs, corpus):
                 keep("pack", f"{kind}.cells", pack.read_bytes())
             svdag("plan", scene, "-o", f"plan_{kind}", *grid, "--shards", "1" if grid[1] == "8" else "2")
             plan = folder / f"plan_{kind}"
-            svdag("build", plan, "--shard", "1")
+            svdag("run", plan, "--step", "shard-1")
             parts = [plan / "plan.json", plan / "index", plan / "runs" / "shard-1.json"]
             keep("plan", f"{kind}.plan", b"\n---\n".join(part.read_bytes().replace(str(folder).encode(), b"/work")
                                                      for part in parts))

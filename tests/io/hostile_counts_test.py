@@ -416,7 +416,7 @@ class HostileCounts(unittest.TestCase):
         self.svdag("plan", "scene.stl", "-o", "plan", "-r", "16", "--shards", "1", "-q")
         plan = self.folder / "plan"
         path, text = plan / "plan.json", (plan / "plan.json").read_bytes()
-        command = [PROGRAMS / "svdag", "build", "plan", "--shard", "1", "-q"]
+        command = [PROGRAMS / "svdag", "run", "plan", "--step", "shard-1", "-q"]
         def delete_runs():
             for file in (plan / "runs").glob("*"):
                 file.unlink()

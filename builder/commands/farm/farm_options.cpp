@@ -9,54 +9,20 @@
 
 namespace svdag {
 
-namespace {
-
-struct MergeOptions {
-  MergeCommand merge;
-  std::string step;
-};
-
-Command command_of(const MergeOptions& options) {
-  const auto& [merge, threads, output] = options.merge;
-  if (options.step.empty()) return options.merge;
-  if (merge.layout != Layout::kPlain)
-    fail_usage("--layout: a plan makes plain files: convert its result with svdag convert");
-  if (merge.runs.size() != 1)
-    fail_usage("--step: takes one plan, " + std::to_string(merge.runs.size()) +
-               " paths are given: name only the plan");
-  return MergeStepCommand{merge.runs.front(),
-                          options.step,
-                          {merge.output, merge.memory, merge.scratch},
-                          threads,
-                          output};
-}
-
-}  // namespace
-
 void add_merge(CLI::App* program, Command* command) {
   CLI::App* app = program->add_subcommand("merge", "Join the runs of parts of one bake");
-  auto options = std::make_shared<MergeOptions>();
-  MergeCommand* const config = &options->merge;
-  takes_files(app->add_option("RUN", config->merge.runs, "Runs of parts of one bake, or a plan"),
-              {".run"})
+  auto config = std::make_shared<MergeCommand>();
+  MergeRunsConfig* const merge = &config->merge;
+  takes_files(app->add_option("RUN", merge->runs, "Runs of parts of one bake"), {".run"})
       ->required();
-  CLI::Option* output =
-      takes_files(
-          app->add_option("-o,--output", config->merge.output,
-                          "The .svdag to write, if the runs hold the whole grid, or a larger .run"),
-          {".svdag", ".run"})
-          ->required()
-          ->type_name("OUT");
-  app->add_option_function<std::string>(
-         "--step",
-         [=](const std::string& step) {
-           options->step = step;
-           output->required(false);
-         },
-         "Do this merge of a plan; a finished one is kept")
-      ->type_name("NAME");
-  add_layout(app, &config->merge.layout);
-  add_resource_options(app, &config->merge.memory, &config->threads, &config->merge.scratch);
+  takes_files(app->add_option("-o,--output", merge->output,
+                              "The .svdag to write, if the runs hold the whole grid, or a larger "
+                              ".run"),
+              {".svdag", ".run"})
+      ->required()
+      ->type_name("OUT");
+  add_layout(app, &merge->layout);
+  add_resource_options(app, &merge->memory, &config->threads, &merge->scratch);
   add_quiet(app, &config->output);
   add_verbose(app, &config->output, "Print seconds per phase, and memory");
   add_progress(app, &config->output);
@@ -64,9 +30,9 @@ void add_merge(CLI::App* program, Command* command) {
       app,
       {"svdag build city.glb -r 64K --part 1/2 -o a.run",
        "svdag build city.glb -r 64K --part 2/2 -o b.run", "svdag merge a.run b.run -o city.svdag"},
-      "PLAN --step NAME needs no other option. See also: svdag help farm.");
-  app->preparse_callback([=](size_t) { *options = {}; });
-  app->callback([=] { *command = command_of(*options); });
+      "See also: svdag help farm.");
+  app->preparse_callback([=](size_t) { *config = {}; });
+  app->callback([=] { *command = *config; });
 }
 
 void add_plan(CLI::App* program, Command* command) {
@@ -103,21 +69,46 @@ void add_plan(CLI::App* program, Command* command) {
 }
 
 void add_run(CLI::App* program, Command* command) {
-  CLI::App* app = program->add_subcommand("run", "Run a plan on this machine");
-  auto config = std::make_shared<RunCommand>();
+  CLI::App* app = program->add_subcommand("run", "Run a plan on this machine, or one of its steps");
+  auto config = std::make_shared<StepCommand>();
   takes_folder(app->add_option("PLAN", config->plan, "The folder of a plan"))->required();
-  from_to(app->add_option("-j,--jobs", config->processes,
-                          "Max steps to run at once (default: number of processors)"),
+  from_to(app->add_option("-j,--jobs", config->threads,
+                          "Max steps to run at once (default: number of processors); with --step, "
+                          "its threads (default: as planned)"),
           1, kMaxThreads)
       ->type_name("N");
-  takes_folder(
-      app->add_option("--scratch", config->scratch, "Folder for data that does not fit in memory"))
+  takes_folder(app->add_option("--scratch", config->step.scratch,
+                               "Folder for data that does not fit in memory"))
       ->type_name("DIR");
   add_quiet(app, &config->output);
   add_progress(app, &config->output);
-  add_examples(app, {"svdag run city.plan -j 4"});
+  CLI::Option* const step =
+      takes_files(app->add_option("--step", config->name,
+                                  "Only this step (svdag info --levels lists them); a finished "
+                                  "one is kept, a stopped shard continues"),
+                  {"*"})
+          ->type_name("NAME");
+  takes_files(app->add_option("-o,--output", config->step.output,
+                              "The .run or .svdag to write (default: that of the plan)"),
+              {".run", ".svdag"})
+      ->type_name("OUT");
+  add_memory_budget(app, &config->step.memory);
+  app->get_option("--memory")->description("Memory budget (default: as planned)");
+  add_checkpoint(app, &config->step.checkpoint);
+  app->add_flag("--restart", config->step.restart, "Discard the saved work of a stopped shard");
+  add_verbose(app, &config->output, "Print seconds and memory beside those of the plan");
+  for (const char* const option :
+       {"--output", "--memory", "--checkpoint", "--restart", "--verbose"})
+    app->get_option(option)->needs(step);
+  add_examples(app, {"svdag run city.plan -j 4", "svdag run city.plan --step shard-3"});
   app->preparse_callback([=](size_t) { *config = {}; });
-  app->callback([=] { *command = *config; });
+  app->callback([=] {
+    if (step->count() > 0)
+      *command = *config;
+    else
+      *command =
+          RunCommand{config->plan, config->threads, config->step.scratch, config->output};
+  });
 }
 
 void add_submit(CLI::App* program, Command* command) {

@@ -40,7 +40,7 @@ void print_summary(const MergeCommand& config, const MergeRunsReport& r) {
 }  // namespace
 
 int run(const MergeCommand& config) {
-  reject_plans(config.merge.runs, "--step");
+  reject_plans(config.merge.runs);
   if (config.merge.output.empty()) fail_usage("--output: the output has no name");
   reject_overwriting_inputs(config.merge);
   AtomicFile::check(config.merge.output);

@@ -92,39 +92,20 @@ int do_step(const Plan& plan, const PlanStep& step, const StepConfig& config, si
   return int(ExitCode::kOk);
 }
 
-Plan load(const std::string& path, const char* option, bool with_bins) {
-  if (!is_plan(path))
-    fail_usage(std::string(option) + ": " + path +
-               " is not a plan folder (create one with svdag plan)");
-  return load_plan(path, with_bins);
-}
-
 }  // namespace
 
-void reject_plans(const std::vector<std::string>& paths, const char* option) {
+void reject_plans(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
     std::error_code none;
     if (std::filesystem::is_directory(path, none) && is_plan(path))
-      fail_usage(path + " is a plan: choose one of its steps with " + option +
-                 ", or run them all with svdag run");
+      fail_usage(path + " is a plan: bake it with svdag run");
   }
 }
 
-int run(const ShardCommand& command) {
-  const Plan plan = load(command.plan, "--shard", true);
-  if (command.shard > plan.shards())
-    fail_usage("--shard " + std::to_string(command.shard) + ": the plan has shards 1 to " +
-               std::to_string(plan.shards()));
-  const PlanStep& step = find_step(plan, shard_name(command.shard));
-  return do_step(plan, step, command.step, command.threads, command.output);
-}
-
-int run(const MergeStepCommand& command) {
-  const Plan plan = load(command.plan, "--step", false);
-  const PlanStep& step = find_step(plan, command.step_name);
-  if (step.is_shard())
-    fail_usage("--step: " + step.name + " is a shard: bake it with svdag build --shard");
-  return do_step(plan, step, command.step, command.threads, command.output);
+int run(const StepCommand& command) {
+  const Plan plan = load_plan(command.plan, is_shard_name(command.name));
+  return do_step(plan, find_step(plan, command.name), command.step, command.threads,
+                 command.output);
 }
 
 }  // namespace svdag

@@ -72,12 +72,9 @@ Json step_json(const Plan& plan, const OpenJdConfig& config, const Stage& stage)
                             number_in(plan.steps[stage.steps.back()].name);
   double seconds = 0;
   for (const size_t i : stage.steps) seconds = std::max(seconds, plan.steps[i].predicted.seconds);
-  Json arguments = {shards ? "build" : "merge", "{{Param.Plan}}"};
-  arguments.push_back(shards ? "--shard" : "--step");
-  arguments.push_back(shards ? kNumber : merge_name(kNumber));
-  if (!config.scratch.empty()) {
-    arguments.push_back("--scratch={{Param.Scratch}}");
-  }
+  Json arguments = {"run", "{{Param.Plan}}", "--step",
+                    shards ? shard_name(kNumber) : merge_name(kNumber)};
+  if (!config.scratch.empty()) arguments.push_back("--scratch={{Param.Scratch}}");
   return {{"name", stage.name},
           {"parameterSpace",
            {{"taskParameterDefinitions",

@@ -164,16 +164,19 @@ void Submission::add(size_t i, Job* job) const {
   job->seconds = std::max(job->seconds, step.predicted.seconds);
 }
 
-// The script of a job: runs one step, in an array that of its task.
+// The script of a job. It runs one step; in an array, the step of its task.
 std::string Submission::script_of(const Job& job) const {
   const PlanStep& step = plan_.steps[job.steps.front()];
   std::vector<std::string> words = plan_.command(step);
-  if (is_array(job)) words.pop_back();  // the number
+  if (is_array(job)) words.pop_back();  // the name of the step
   std::string command = shell_word(program_on_hosts(config_.program));
   for (const std::string& word : words) command += " " + shell_word(word);
   if (is_array(job))
-    command += " \"$((SLURM_ARRAY_TASK_ID + " +
-               std::to_string(number_of(job.steps.front()) - task_of(job.steps.front())) + "))\"";
+    command += " \"" +
+               shard_name("$((SLURM_ARRAY_TASK_ID + " +
+                          std::to_string(number_of(job.steps.front()) - task_of(job.steps.front())) +
+                          "))") +
+               "\"";
   if (!config_.scratch.empty())
     command += " --scratch " + shell_word(absolute_unresolved(config_.scratch));
   return "#!/bin/sh\n" + command +

@@ -204,8 +204,7 @@ size_t Plan::shards() const {
 }
 
 std::vector<std::string> Plan::command(const PlanStep& step) const {
-  if (step.is_shard()) return {"build", folder, "--shard", number_in(step.name)};
-  return {"merge", folder, "--step", step.name};
+  return {"run", folder, "--step", step.name};
 }
 
 void require_utf8(const std::string& path) {

@@ -72,21 +72,21 @@ TEST_F(Engines, RunEveryStepAfterItsInputs) {
   run("");
   const std::string lines = started_commands();
   EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), ptrdiff_t(plan_.steps.size()));
-  EXPECT_LT(lines.find("1\n"), lines.find("merge-1"));
+  EXPECT_LT(lines.find("shard-1\n"), lines.find("merge-1"));
   EXPECT_LT(lines.find("merge-1"), lines.find("merge-3"));
   EXPECT_LT(lines.find("merge-2"), lines.find("merge-3"));
 }
 
 TEST_F(Engines, RetryTemporaryFailuresOnce) {
   const std::string flag = folder_.file("flag");
-  run("[ \"$4\" != 2 ] || [ -e " + flag + " ] || { touch " + flag + "; exit 4; }");
+  run("[ \"$4\" != shard-2 ] || [ -e " + flag + " ] || { touch " + flag + "; exit 4; }");
   const std::string lines = started_commands();
   EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), ptrdiff_t(plan_.steps.size()) + 1);
 }
 
 TEST_F(Engines, CountNoAttemptWhileAnotherProcessRunsTheStep) {
-  run("[ \"$4\" != 2 ] || [ $(grep -c '^2$' " + folder_.file("commands") + ") = 4 ] || exit 75");
-  EXPECT_EQ(start_count("2"), 4);
+  run("[ \"$4\" != shard-2 ] || [ $(grep -c '^shard-2$' " + folder_.file("commands") + ") = 4 ] || exit 75");
+  EXPECT_EQ(start_count("shard-2"), 4);
 }
 
 TEST_F(Engines, RunOtherStepsWhileAnotherProcessRunsOne) {
@@ -99,22 +99,22 @@ TEST_F(Engines, RunOtherStepsWhileAnotherProcessRunsOne) {
   });
   run("");
   const std::string lines = "\n" + started_commands();
-  EXPECT_GT(lines.find("\n1\n"), lines.find("\nmerge-2\n")) << lines;
-  EXPECT_EQ(start_count("1"), 1) << "no process is started only to wait";
+  EXPECT_GT(lines.find("\nshard-1\n"), lines.find("\nmerge-2\n")) << lines;
+  EXPECT_EQ(start_count("shard-1"), 1) << "no process is started only to wait";
 }
 
 // Shard 2 fails each time just after another process has started it.
 TEST_F(Engines, CountAttemptsThatFailWhileAnotherProcessStartsTheStep) {
   const std::string scratch = plan_.path(plan_.steps[1].output) + ".scratch";
   const std::string owner = scratch + "/owner";
-  const std::string tries = "$(grep -c '^2$' " + folder_.file("commands") + ")";
-  EXPECT_SVDAG_ERROR(run("[ \"$4\" = 2 ] && [ " + tries + " -le 5 ] || exit 0\n" +  //
+  const std::string tries = "$(grep -c '^shard-2$' " + folder_.file("commands") + ")";
+  EXPECT_SVDAG_ERROR(run("[ \"$4\" = shard-2 ] && [ " + tries + " -le 5 ] || exit 0\n" +  //
                          "mkdir -p " + scratch + "\n" +                             //
                          "flock " + owner + " sleep 1 &\n" +                        //
                          "while flock -n " + owner + " true; do :; done\n" +        //
                          "exit 4"),
                      ExitCode::kOutput, "shard-2 failed");
-  EXPECT_EQ(start_count("2"), 2);
+  EXPECT_EQ(start_count("shard-2"), 2);
 }
 
 TEST_F(Engines, RejectTemplatesWithInvalidUtf8) {
@@ -132,7 +132,7 @@ TEST_F(Engines, RejectTemplatesWithInvalidUtf8) {
 }
 
 TEST_F(Engines, SkipDependentsOfAFailedStepAndReportIt) {
-  EXPECT_SVDAG_ERROR(run("[ \"$4\" != 2 ] || { echo 'svdag: it is broken' >&2; exit 3; }"),
+  EXPECT_SVDAG_ERROR(run("[ \"$4\" != shard-2 ] || { echo 'svdag: it is broken' >&2; exit 3; }"),
                      ExitCode::kBadInput, "shard-2 failed: it is broken");
   const std::string lines = started_commands();
   EXPECT_NE(lines.find("merge-2"), std::string::npos) << "merge-2 does not need shard-2";
@@ -141,16 +141,16 @@ TEST_F(Engines, SkipDependentsOfAFailedStepAndReportIt) {
 }
 
 TEST_F(Engines, FailAStepThatFailsTwice) {
-  EXPECT_SVDAG_ERROR(run("[ \"$4\" != 1 ] || kill -9 $$"), ExitCode(128 + 9),
+  EXPECT_SVDAG_ERROR(run("[ \"$4\" != shard-1 ] || kill -9 $$"), ExitCode(128 + 9),
                      "shard-1 failed: killed by signal 9, often for lack of memory");
 }
 
 TEST_F(Engines, ReportOnlyMessagesOfThisRun) {
-  EXPECT_SVDAG_ERROR(run("[ \"$4\" != 1 ] || { echo 'svdag: it is broken'; exit 3; }"),
+  EXPECT_SVDAG_ERROR(run("[ \"$4\" != shard-1 ] || { echo 'svdag: it is broken'; exit 3; }"),
                      ExitCode::kBadInput, "shard-1 failed: it is broken");
-  EXPECT_SVDAG_ERROR(run("[ \"$4\" != 1 ] || kill -11 $$"), ExitCode(128 + 11),
+  EXPECT_SVDAG_ERROR(run("[ \"$4\" != shard-1 ] || kill -11 $$"), ExitCode(128 + 11),
                      "shard-1 failed: killed by signal 11 (");
-  EXPECT_SVDAG_ERROR(run("[ \"$4\" != 1 ] || exit 3"), ExitCode::kBadInput,
+  EXPECT_SVDAG_ERROR(run("[ \"$4\" != shard-1 ] || exit 3"), ExitCode::kBadInput,
                      "shard-1 failed: no message, exit code 3 (");
 }
 
@@ -224,10 +224,10 @@ TEST_F(LargePlans, UseArraysOfAThousandWithoutAReportedLimit) {
   EXPECT_EQ(value_of(jobs[0], "--array="), "1-999");
   EXPECT_EQ(value_of(jobs[1], "--array="), "0-999");
   EXPECT_EQ(value_of(jobs[2], "--array="), "0-5");
-  const std::string build = "build " + plan_.folder + " --shard ";
-  EXPECT_EQ(run_by(jobs[0], "999"), build + "999\n");
-  EXPECT_EQ(run_by(jobs[1], "0"), build + "1000\n");
-  EXPECT_EQ(run_by(jobs[2], "5"), build + "2005\n");
+  const std::string shard = "run " + plan_.folder + " --step shard-";
+  EXPECT_EQ(run_by(jobs[0], "999"), shard + "999\n");
+  EXPECT_EQ(run_by(jobs[1], "0"), shard + "1000\n");
+  EXPECT_EQ(run_by(jobs[2], "5"), shard + "2005\n");
   EXPECT_EQ(value_of(jobs[0], "--output="), plan_.path("logs/shard-%a.slurm.log"));
   EXPECT_EQ(value_of(jobs[1], "--output="), plan_.path("logs/shard-1%3a.slurm.log"));
   const std::string last =
@@ -252,7 +252,7 @@ TEST_F(LargePlans, UseAJobPerShardIfSlurmHasNoArrays) {
   const std::vector<std::string> jobs = submitted(config);
   ASSERT_EQ(jobs.size(), 3u + 1u);
   EXPECT_EQ(value_of(jobs[1], "--array="), "none");
-  EXPECT_EQ(run_by(jobs[1], ""), "build " + plan_.folder + " --shard 2\n");
+  EXPECT_EQ(run_by(jobs[1], ""), "run " + plan_.folder + " --step shard-2\n");
   EXPECT_EQ(value_of(jobs[3], "--dependency="), "afterok:1:2:3");
 }
 
@@ -317,7 +317,7 @@ TEST_F(Engines, GiveSlurmNodesAbsolutePaths) {
   const std::string job = submitted(config).at(0);
   const std::string script = read_bytes(job.substr(job.find_last_of(' ') + 1));
   const std::string here = std::filesystem::current_path().string() + "/";
-  EXPECT_NE(script.find("\n" + here + "bin/svdag build "), std::string::npos) << script;
+  EXPECT_NE(script.find("\n" + here + "bin/svdag run "), std::string::npos) << script;
   EXPECT_NE(script.find(" --scratch " + here + "spill\n"), std::string::npos) << script;
 }
 
