@@ -11,6 +11,7 @@
 #include "builder/build.h"
 #include "builder/cache/cell_cache.h"
 #include "builder/edit/edit.h"
+#include "builder/farm/engines/farm_engine.h"
 #include "builder/farm/engines/run_step.h"
 #include "builder/farm/planner/make_plan.h"
 #include "builder/merge/merge_runs.h"
@@ -91,13 +92,8 @@ struct StepCommand {
 // svdag submit PLAN.
 struct SubmitCommand {
   std::string plan;
-  std::string engine;   // slurm | openjd
-  std::string program;  // --program: path of svdag on the other machines; empty: this program's
-  std::string template_path;  // -o, openjd only; empty: PLAN/openjd.json
-  std::string scratch;
-  bool wait = false;
-  std::vector<std::string> options;  // after --, for the engine
-  OutputConfig output;
+  const FarmEngine* engine = nullptr;
+  SubmitConfig config;
 };
 
 // svdag info FILE.

@@ -27,7 +27,8 @@ $ COLUMNS=40 svdag submit --help
 |   PLAN
 |       The folder of a plan
 |   OPTION...
-|       After --: options for the engine
+|       slurm: after --, options for
+|       sbatch
 |
 | Options:
 |   -h, --help
@@ -36,7 +37,7 @@ $ COLUMNS=40 svdag submit --help
 |       slurm (submits jobs) or openjd
 |       (writes a template)
 |   --wait
-|       Wait until the plan is done
+|       slurm: wait until the plan is done
 |   --program FILE
 |       svdag on the other machines
 |       (default: this file)
@@ -205,9 +206,10 @@ $ svdag help
 |
 | Commands:
 |   build                     Bake scene files as one .svdag
+|   batch                     Bake each entry of a list
 |   merge                     Join the runs of parts of one bake
 |   plan                      Divide a bake into jobs for a farm
-|   run                       Run a plan on this machine
+|   run                       Run a plan on this machine, or one of its steps
 |   submit                    Submit a plan to a farm
 |   info                      Describe a .svdag, a run, a plan or a scene
 |   query                     Look up points in a .svdag

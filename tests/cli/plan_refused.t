@@ -78,13 +78,13 @@ $ refused svdag merge p p -o z.svdag
 | svdag: p is a plan: bake it with svdag run
 | exit 2
 $ refused svdag submit p --engine slurm -o t.json
-| svdag: --engine slurm submits jobs and writes no template: leave --output out
+| svdag: --engine slurm submits jobs: leave --output out, which is for openjd
 | exit 2
 $ refused svdag submit p p --engine slurm
 | svdag: p: one plan is submitted at a time; options for the engine begin with a dash and follow --
 | exit 2
 $ refused svdag submit p --engine openjd --wait
-| svdag: --engine openjd writes a template and starts nothing: leave --wait and engine options out
+| svdag: --engine openjd writes a template: leave --wait out, which is for slurm
 | exit 2
 $ for option in '--include x' '--exclude x' --skip-invalid --sandbox; do refused svdag info p $option; done
 | svdag: --include: p is a plan

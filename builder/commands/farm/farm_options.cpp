@@ -1,5 +1,6 @@
 // The options of bakes in parts: svdag plan, run, submit and merge.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 
 #include "builder/commands/options.h"
@@ -111,16 +112,49 @@ void add_run(CLI::App* program, Command* command) {
   });
 }
 
-void add_submit(CLI::App* program, Command* command) {
-  CLI::App* app = program->add_subcommand("submit", "Submit a plan to a farm");
-  auto config = std::make_shared<SubmitCommand>();
-  takes_folder(app->add_option("PLAN", config->plan, "The folder of a plan"))->required();
-  one_of(app->add_option("--engine", config->engine,
-                         "slurm (submits jobs) or openjd (writes a template)"),
-         {"slurm", "openjd"})
+namespace {
+
+// Adds --engine with a row of kFarmEngines per choice.
+void add_engine(CLI::App* app, const FarmEngine** engine) {
+  std::vector<std::string> names;
+  std::string text;
+  for (const FarmEngine& each : kFarmEngines) {
+    names.push_back(each.name);
+    text += (text.empty() ? "" : " or ") + std::string(each.name) + " (" + each.what + ")";
+  }
+  const auto choose = [=](const std::string& name) { *engine = &farm_engine(name); };
+  one_of(app->add_option_function<std::string>("--engine", choose, text), names)
       ->required()
       ->type_name("NAME");
-  app->add_flag("--wait", config->wait, "Wait until the plan is done");
+}
+
+// Rejects options that the chosen engine would ignore. Engine options begin with a dash: any other
+// word is a second plan, which must not be passed to the engine.
+void reject_options_of_other_engines(const CLI::App& app, const SubmitCommand& command) {
+  const std::vector<std::string>& words = command.config.options;
+  if (!words.empty() && !words.front().starts_with('-'))
+    fail_usage(words.front() +
+               ": one plan is submitted at a time; options for the engine begin with a dash and "
+               "follow --");
+  const std::vector<std::string>& own = command.engine->options;
+  for (const FarmEngine& other : kFarmEngines) {
+    for (const std::string& option : other.options) {
+      if (app.count(option) > 0 && std::ranges::find(own, option) == own.end())
+        fail_usage("--engine " + std::string(command.engine->name) + ' ' + command.engine->what +
+                   ": leave " + option + " out, which is for " + other.name);
+    }
+  }
+}
+
+}  // namespace
+
+void add_submit(CLI::App* program, Command* command) {
+  CLI::App* app = program->add_subcommand("submit", "Submit a plan to a farm");
+  auto submit = std::make_shared<SubmitCommand>();
+  SubmitConfig* const config = &submit->config;
+  takes_folder(app->add_option("PLAN", submit->plan, "The folder of a plan"))->required();
+  add_engine(app, &submit->engine);
+  app->add_flag("--wait", config->wait, "slurm: wait until the plan is done");
   takes_files(app->add_option("--program", config->program,
                               "svdag on the other machines (default: this file)"),
               {"*"})
@@ -133,12 +167,15 @@ void add_submit(CLI::App* program, Command* command) {
       app->add_option("--scratch", config->scratch,
                       "Folder on the machines for spilled data (a relative path begins here)"))
       ->type_name("DIR");
-  app->add_option("OPTION", config->options, "After --: options for the engine");
-  add_quiet(app, &config->output);
+  app->add_option("OPTION", config->options, "slurm: after --, options for sbatch");
+  app->add_flag("-q,--quiet", config->quiet, "Print errors only");
   add_examples(app, {"svdag submit city.plan --engine slurm --wait -- --partition=bake",
                      "svdag submit city.plan --engine openjd -o city.openjd.json"});
-  app->preparse_callback([=](size_t) { *config = {}; });
-  app->callback([=] { *command = *config; });
+  app->preparse_callback([=](size_t) { *submit = {}; });
+  app->callback([=] {
+    reject_options_of_other_engines(*app, *submit);
+    *command = *submit;
+  });
 }
 
 }  // namespace svdag

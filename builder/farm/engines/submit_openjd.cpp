@@ -1,12 +1,13 @@
-#include "builder/farm/engines/submit_openjd.h"
-
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "builder/farm/engines/farm_engine.h"
 #include "builder/farm/engines/process.h"
 #include "builder/farm/plan/step_name.h"
+#include "streaming/file/atomic_file.h"
 #include "streaming/file/file.h"
 
 namespace svdag {
@@ -66,7 +67,7 @@ Json requirements(const Plan& plan, const Stage& stage) {
                         {{"name", "amount.worker.vcpu"}, {"min", threads}}})}};
 }
 
-Json step_json(const Plan& plan, const OpenJdConfig& config, const Stage& stage) {
+Json step_json(const Plan& plan, const SubmitConfig& config, const Stage& stage) {
   const bool shards = plan.steps[stage.steps.front()].is_shard();
   const std::string tasks = number_in(plan.steps[stage.steps.front()].name) + "-" +
                             number_in(plan.steps[stage.steps.back()].name);
@@ -90,11 +91,12 @@ Json step_json(const Plan& plan, const OpenJdConfig& config, const Stage& stage)
 
 }  // namespace
 
-std::string openjd_template(const Plan& plan, const OpenJdConfig& options) {
-  OpenJdConfig config = options;  // with absolute paths, since hosts run in other folders
+std::string openjd_template(const Plan& plan, const SubmitConfig& options) {
+  SubmitConfig config = options;  // with absolute paths, since hosts run in other folders
   config.program = program_on_hosts(options.program);
+  if (config.template_path.empty()) config.template_path = plan.path("openjd.json");
   if (!options.scratch.empty()) config.scratch = absolute_unresolved(options.scratch);
-  for (const std::string& path : {plan.folder, config.path, config.program, config.scratch})
+  for (const std::string& path : {plan.folder, config.template_path, config.program, config.scratch})
     require_utf8(path);
   Json json = {{"specificationVersion", "jobtemplate-2023-09"}, {"name", job_name(plan)}};
   json["parameterDefinitions"] =
@@ -103,7 +105,7 @@ std::string openjd_template(const Plan& plan, const OpenJdConfig& options) {
                     {"objectType", "DIRECTORY"},
                     {"dataFlow", "INOUT"},
                     {"description", "The folder that svdag plan wrote"},
-                    {"default", relative_to(folder_of(config.path), plan.folder)}},
+                    {"default", relative_to(folder_of(config.template_path), plan.folder)}},
                    {{"name", "Svdag"},
                     {"type", "STRING"},
                     {"description", "The program svdag on the hosts"},
@@ -122,6 +124,15 @@ std::string openjd_template(const Plan& plan, const OpenJdConfig& options) {
     before = stage.name;
   }
   return json.dump(1) + "\n";
+}
+
+void submit_openjd(const Plan& plan, const SubmitConfig& config) {
+  const std::string path =
+      config.template_path.empty() ? plan.path("openjd.json") : config.template_path;
+  AtomicFile file(path);
+  file.append(openjd_template(plan, config));
+  file.commit();
+  if (!config.quiet) std::printf("%s\n", path.c_str());
 }
 
 }  // namespace svdag

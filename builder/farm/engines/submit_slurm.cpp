@@ -1,11 +1,10 @@
-#include "builder/farm/engines/submit_slurm.h"
-
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <map>
 #include <thread>
 
+#include "builder/farm/engines/farm_engine.h"
 #include "builder/farm/engines/process.h"
 #include "builder/farm/plan/plan_folder.h"
 #include "builder/farm/plan/receipt.h"
@@ -91,7 +90,7 @@ void report_queued(const char* prefix, std::string ids) {
 
 class Submission {
  public:
-  Submission(const Plan& plan, const SlurmConfig& config)
+  Submission(const Plan& plan, const SubmitConfig& config)
       : plan_(plan), config_(config), array_size_(array_size()) {}
 
   void run() {
@@ -131,7 +130,7 @@ class Submission {
   bool any_queued(const std::string& ids) const;
 
   const Plan& plan_;
-  const SlurmConfig& config_;
+  const SubmitConfig& config_;
   size_t array_size_;  // an array holds the shards with the same number / array_size_
   std::vector<Job> jobs_;
   std::map<size_t, std::string> ids_;  // by submitted step: "12" or "12_3"
@@ -314,7 +313,7 @@ void report_interrupted(const std::string& ids) {
 
 }  // namespace
 
-void submit_slurm(const Plan& plan, const SlurmConfig& config) {
+void submit_slurm(const Plan& plan, const SubmitConfig& config) {
   Submission submission(plan, config);
   try {
     submission.run();

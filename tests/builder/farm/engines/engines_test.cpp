@@ -6,10 +6,9 @@
 #include <optional>
 #include <thread>
 
+#include "builder/farm/engines/farm_engine.h"
 #include "builder/farm/engines/process.h"
 #include "builder/farm/engines/run_local.h"
-#include "builder/farm/engines/submit_openjd.h"
-#include "builder/farm/engines/submit_slurm.h"
 #include "streaming/process/shell.h"
 #include "streaming/spill/scratch_dir.h"
 #include "tests/builder/farm/plans.h"
@@ -39,7 +38,7 @@ class Engines : public ::testing::Test {
     return std::count(std::istream_iterator<std::string>(lines), {}, shard);
   }
   // The sbatch calls of submit(); the id of a job is the number of its call, from 1.
-  std::vector<std::string> submitted(const SlurmConfig& config = {}) const {
+  std::vector<std::string> submitted(const SubmitConfig& config = {}) const {
     const std::string log = folder_.file("commands");
     std::filesystem::remove(log);
     program("sbatch", "echo \"$@\" >> " + log + "; wc -l < " + log);
@@ -49,7 +48,7 @@ class Engines : public ::testing::Test {
     for (std::string line; std::getline(lines, line);) jobs.push_back(line);
     return jobs;
   }
-  void submit(SlurmConfig config) const {
+  void submit(SubmitConfig config) const {
     const std::string path = std::getenv("PATH");
     setenv("PATH", (folder_.path() + ":" + path).c_str(), 1);
     const std::shared_ptr<void> after(nullptr, [&](void*) { setenv("PATH", path.c_str(), 1); });
@@ -121,12 +120,12 @@ TEST_F(Engines, RejectTemplatesWithInvalidUtf8) {
   Plan moved = plan_;
   moved.folder += "/caf\xe9";
   EXPECT_SVDAG_ERROR(openjd_template(moved, {}), ExitCode::kUsage, "is not valid UTF-8");
-  EXPECT_SVDAG_ERROR(openjd_template(plan_, {"", "/scratch/\xff", ""}), ExitCode::kUsage,
+  EXPECT_SVDAG_ERROR(openjd_template(plan_, {"", "/scratch/\xff"}), ExitCode::kUsage,
                      "is not valid UTF-8");
   const auto here = std::filesystem::current_path();
   std::filesystem::create_directory(folder_.file("caf\xe9"));
   std::filesystem::current_path(folder_.file("caf\xe9"));
-  EXPECT_SVDAG_ERROR(openjd_template(plan_, {"", "spill", ""}), ExitCode::kUsage,
+  EXPECT_SVDAG_ERROR(openjd_template(plan_, {"", "spill"}), ExitCode::kUsage,
                      "is not valid UTF-8");
   std::filesystem::current_path(here);
 }
@@ -170,7 +169,7 @@ TEST_F(Engines, NameTheLogThatCannotBeWritten) {
 }
 
 TEST_F(Engines, SubmitAnArrayOfShardsAndMergesWithDependencies) {
-  SlurmConfig config;
+  SubmitConfig config;
   config.options = {"--partition=bake"};
   const std::vector<std::string> jobs = submitted(config);
   ASSERT_EQ(jobs.size(), 4u);
@@ -217,7 +216,7 @@ class LargePlans : public Engines {
 TEST_F(LargePlans, UseArraysOfAThousandWithoutAReportedLimit) {
   prepare(2005);
   program("scontrol", "exit 1");
-  SlurmConfig config;
+  SubmitConfig config;
   config.program = "echo";
   const std::vector<std::string> jobs = submitted(config);
   ASSERT_EQ(jobs.size(), 3u + 4u) << "arrays, and merges of 3 + 1";
@@ -247,7 +246,7 @@ TEST_F(LargePlans, UseArraysWithinTheLimitOfSlurm) {
 TEST_F(LargePlans, UseAJobPerShardIfSlurmHasNoArrays) {
   prepare(3);
   program("scontrol", "echo 'MaxArraySize            = 0'");
-  SlurmConfig config;
+  SubmitConfig config;
   config.program = "echo";
   const std::vector<std::string> jobs = submitted(config);
   ASSERT_EQ(jobs.size(), 3u + 1u);
@@ -283,10 +282,10 @@ TEST_F(Engines, EscapeAPercentSignInPathsOfLogs) {
 
 TEST_F(Engines, GiveOtherHostsAbsolutePaths) {
   const auto described = [&](const std::string& program, const std::string& scratch) {
-    OpenJdConfig config;
+    SubmitConfig config;
     config.program = program;
     config.scratch = scratch;
-    config.path = plan_.path("openjd.json");
+    config.template_path = plan_.path("openjd.json");
     const auto json = nlohmann::json::parse(openjd_template(plan_, config));
     const auto arguments = json["steps"][0]["script"]["actions"]["onRun"]["args"];
     EXPECT_EQ(arguments.back(), "--scratch={{Param.Scratch}}");
@@ -303,7 +302,7 @@ TEST_F(Engines, GiveOtherHostsAbsolutePaths) {
 TEST_F(Engines, WriteNoVariablesFromNamesIntoATemplate) {
   for (const std::string& name : {std::string("{{city}}.svdag"), std::string(130, 'a')}) {
     plan_.steps.back().output = name;
-    const auto json = nlohmann::json::parse(openjd_template(plan_, {"", "/a {{b}}", ""}));
+    const auto json = nlohmann::json::parse(openjd_template(plan_, {"", "/a {{b}}"}));
     EXPECT_EQ(json["name"], "svdag");
     EXPECT_EQ(json["steps"].dump().find("{{b"), std::string::npos);
     EXPECT_EQ(json["parameterDefinitions"][2]["default"], "/a {{b}}");
@@ -311,7 +310,7 @@ TEST_F(Engines, WriteNoVariablesFromNamesIntoATemplate) {
 }
 
 TEST_F(Engines, GiveSlurmNodesAbsolutePaths) {
-  SlurmConfig config;
+  SubmitConfig config;
   config.program = "bin/svdag";
   config.scratch = "spill";
   const std::string job = submitted(config).at(0);
@@ -322,8 +321,8 @@ TEST_F(Engines, GiveSlurmNodesAbsolutePaths) {
 }
 
 TEST_F(Engines, WriteATemplateStepPerStage) {
-  OpenJdConfig config;
-  config.path = plan_.path("openjd.json");
+  SubmitConfig config;
+  config.template_path = plan_.path("openjd.json");
   const auto json = nlohmann::json::parse(openjd_template(plan_, config));
   ASSERT_EQ(json.at("steps").size(), 3u);
   const auto range = [&](size_t i) {
