@@ -16,14 +16,22 @@ import subprocess
 import sys
 
 import plan_fit
-import plan_scenes
-from bakes import label
+from bakes import GENERATED, label
 from bench import OUT, RESULTS, ROOT, fill
 from bench_tables import table
 
 PAGE = RESULTS / "farm.md"
 KNOWN = OUT / "plan.json"
 SHARDS = 16
+# Arguments of svdag-scene: flat, curved, dense and thin surfaces.
+SCENES = {"atrium 1M": ["atrium", "-n", "1M", "--seed", "5"], "terrain": ["terrain"],
+          "terrain 60K": ["terrain", "-n", "60K", "--yaw", "20"], "scan 300K": ["scan", "-n", "300K", "--seed", "7"],
+          "hairball 200K": ["hairball", "-n", "200K"],
+          **{name: GENERATED[name] for name in ("atrium", "city", "city, 0.5 rad", "scan", "scan 70K", "sheet")}}
+CALIBRATION = [("atrium", 12), ("atrium", 14), ("atrium 1M", 12), ("city", 12), ("city", 14), ("city, 0.5 rad", 12),
+               ("city, 0.5 rad", 14), ("sheet", 15), ("terrain", 13), ("terrain 60K", 12), ("terrain 60K", 14),
+               ("scan", 12), ("scan 70K", 12), ("scan 70K", 14), ("scan 300K", 13), ("hairball 200K", 12),
+               ("hairball 200K", 13)]
 SHARED_FILES = ["crytek_sponza.glb", "lyon_city_epsg3946.glb", "samurai_monastery.obj", "stanford_dragon.ply",
                 "stk_black_forest.glb", "openfoam_motorbike.obj", "openfoam_buildings.stl"]
 SHARED_ROWS = [(name, log2) for name in SHARED_FILES for log2 in (12, 14)]
@@ -37,8 +45,11 @@ class Bench:
         OUT.mkdir(parents=True, exist_ok=True)
 
     def scene(self, name):
-        if name in plan_scenes.NAMES:
-            return plan_scenes.scene(name, self.programs, OUT)
+        if name in SCENES:
+            path = OUT / ("_".join(word.strip("-") for word in SCENES[name]) + ".ply")
+            if not path.exists():
+                subprocess.run([self.programs / "svdag-scene", *SCENES[name], "-q", "-o", path], check=True)
+            return path
         path = pathlib.Path(os.environ.get("SVDAG_SCENES", ""), name)
         return path if "SVDAG_SCENES" in os.environ and path.exists() else None
 
@@ -99,7 +110,7 @@ def finest_shared(rows):
     highest = {}
     for r in rows:
         highest[r["scene"]] = max(r["log2"], highest.get(r["scene"], 0))
-    return [r for r in rows if r["log2"] == highest[r["scene"]] and r["scene"] not in plan_scenes.NAMES]
+    return [r for r in rows if r["log2"] == highest[r["scene"]] and r["scene"] not in SCENES]
 
 
 def farm_table(rows):
@@ -126,8 +137,8 @@ def error_row(rows, what):
 
 def error_table(rows):
     lines = []
-    for kind, own in (("generated", [r for r in rows if r["scene"] in plan_scenes.NAMES]),
-                      ("shared", [r for r in rows if r["scene"] not in plan_scenes.NAMES])):
+    for kind, own in (("generated", [r for r in rows if r["scene"] in SCENES]),
+                      ("shared", [r for r in rows if r["scene"] not in SCENES])):
         if not own:
             continue
         lines.append(error_row([r["one_bake"] / r["report"]["seconds"]["cpu"] for r in own], f"{kind}: CPU of one bake"))
@@ -156,7 +167,7 @@ def main():
     options = parser.parse_args()
     known = json.loads(KNOWN.read_text()) if KNOWN.exists() else {}
     bench = Bench(options.programs.resolve())
-    selected = plan_scenes.CALIBRATION + (SHARED_ROWS if not options.calibrate else [])
+    selected = CALIBRATION + (SHARED_ROWS if not options.calibrate else [])
     if options.log2 and all(log2 != options.log2 for _, log2 in selected):
         selected = [(name, options.log2) for name in dict.fromkeys(name for name, _ in selected)]
     for name, log2 in selected if not (options.known or options.predict_again) else []:
@@ -170,9 +181,9 @@ def main():
         for row in known.values():
             bench.predict_again(row)
         KNOWN.write_text(json.dumps(known))
-    rows = [known[key] for key in sorted(known, key=lambda k: (known[k]["scene"] not in plan_scenes.NAMES, k))]
+    rows = [known[key] for key in sorted(known, key=lambda k: (known[k]["scene"] not in SCENES, k))]
     if options.calibrate:
-        plan_fit.print_constants([r for r in rows if r["scene"] in plan_scenes.NAMES])
+        plan_fit.print_constants([r for r in rows if r["scene"] in SCENES])
         return
     contents = {"plans": farm_table(finest_shared(rows)), "predictions": error_table(rows)}
     print("\n\n".join(contents.values()))

@@ -1,14 +1,14 @@
 """Fits the constants of predictions (builder/farm/planner/predict.cpp) to measured bakes and steps.
 
-Seconds are a linear function of counts, with the same non-negative constants for bakes, shards and merges. The fit
-minimizes the squared logarithms of measured / predicted, so short and long steps have the same weight, and so have
-twice and half of a time.
+Seconds are a linear function of counts, with the same constants for bakes, shards and merges. The fit minimizes the
+squared logarithms of measured / predicted, so short and long steps have the same weight, and so have twice and half of
+a time.
 """
 import statistics
 
 import numpy
 
-SECONDS = ["kStart", "kSceneTriangle", "kPlanTriangle", "kDivided", "kComputed", "kFound", "kMergeRead"]
+SECONDS = ["kStart", "kTriangle", "kDivided", "kComputed", "kFound", "kMergeRead"]
 FEW_TRIANGLES = 1000
 
 
@@ -18,41 +18,27 @@ def samples(rows):
     for row in rows:
         report = row["report"]
         work = [sum(report["cubes_divided"]), report["plane_memo"]["computed"]]
-        found.append(([1, report["triangles"], 0, *work, sum(report["nodes"]), 0], report["seconds"]["cpu"]))
+        found.append(([1, report["triangles"], *work, sum(report["nodes"]), 0], report["seconds"]["cpu"]))
         # The shards of a plan together do the work of the bake, except for scenes of a few large triangles, whose
         # planes every shard computes again.
         shards = [step for step in row["steps"] if not step["inputs"]]
         if report["triangles"] >= FEW_TRIANGLES:
-            found.append(([len(shards), 0, sum(s["triangles"] for s in shards), *work, sum(s["keys"] for s in shards), 0],
+            found.append(([len(shards), sum(s["triangles"] for s in shards), *work, sum(s["keys"] for s in shards), 0],
                           sum(s["measured"]["cpu_seconds"] for s in shards)))
         keys = {step["name"]: step["keys"] for step in row["steps"]}
         for merge in (step for step in row["steps"] if step["inputs"]):
-            found.append(([1, 0, 0, 0, 0, 0, sum(keys[i] for i in merge["inputs"])], merge["measured"]["cpu_seconds"]))
+            found.append(([1, 0, 0, 0, 0, sum(keys[i] for i in merge["inputs"])], merge["measured"]["cpu_seconds"]))
     return found
 
 
 def least_squares_of_logarithms(counts, seconds):
-    """The constants c > 0 that minimize |log(counts @ c) - log(seconds)|²: Levenberg-Marquardt on log(c)."""
-    scale = counts.max(axis=0)
-    counts = counts / scale
-    theta, damping = numpy.full(counts.shape[1], -1.0), 1.0
-
-    def residuals(at):
-        return numpy.log(counts @ numpy.exp(at)) - numpy.log(seconds)
-    now = residuals(theta)
-    for _ in range(2000):
-        constants = numpy.exp(theta)
-        slope = counts * constants / (counts @ constants)[:, None]
-        normal = slope.T @ slope
-        step = numpy.linalg.solve(normal + damping * numpy.eye(len(theta)), -slope.T @ now)
-        after = residuals(theta + step)
-        if after @ after < now @ now:
-            theta, now, damping = theta + step, after, max(damping / 3, 1e-9)
-        else:
-            damping *= 2
-        if damping > 1e12:
-            break
-    return numpy.exp(theta) / scale, now
+    """The constants c that minimize |log(counts @ c / seconds)|²: Gauss-Newton from a fit of the relative errors."""
+    constants = numpy.linalg.lstsq(counts / seconds[:, None], numpy.ones(len(seconds)), rcond=None)[0]
+    for _ in range(50):
+        predicted = counts @ constants
+        residuals = numpy.log(predicted / seconds)
+        constants -= numpy.linalg.lstsq(counts / predicted[:, None], residuals, rcond=None)[0]
+    return constants, residuals
 
 
 def print_constants(rows):

@@ -21,7 +21,7 @@ constexpr size_t kDefaultArraySize = 1000;  // if Slurm does not report MaxArray
 constexpr size_t kMaxArraySize = 10000;     // a longer task list may not fit in a command line
 constexpr double kTimeFactor = 4;  // margin, since predicted seconds are those of another machine
 constexpr uint64_t kMinMinutes = 10;
-constexpr uint64_t kMiB = uint64_t(1) << 20;
+constexpr uint64_t kMebibyte = uint64_t(1) << 20;
 constexpr auto kQueuePollInterval = std::chrono::milliseconds(500);
 constexpr int kMaxFailedPolls = 120;  // consecutive failures of squeue
 
@@ -235,7 +235,7 @@ void Submission::submit(Job* job) {
       "--open-mode=append",
       "--job-name=" + job->name,
       "--output=" + log_of(*job),
-      "--mem=" + std::to_string((job->memory + kMiB - 1) / kMiB) + "M",
+      "--mem=" + std::to_string((job->memory + kMebibyte - 1) / kMebibyte) + "M",
       "--cpus-per-task=" + std::to_string(job->threads),
       "--time=" + std::to_string(minutes)};
   if (array) {

@@ -73,7 +73,6 @@ class Planner {
 
   Plan run() {
     read_scene();
-    survey();
     make_steps();
     if (!config_.folder.empty()) save();
     progress_->finish();
@@ -84,10 +83,9 @@ class Planner {
   void clear_scratch();
   void read_scene();
   void describe_inputs();
-  void survey();
   void make_steps();
-  void add_shards(const std::vector<ShardWork>& works);
-  void add_merges(const std::vector<ShardWork>& works);
+  void add_shards(const std::vector<CellRange>& shards, const std::vector<ShardWork>& works);
+  void add_merges(const std::vector<ShardWork>& works, const NodeCounts& found);
   void save();
   StepLimits limits() const { return {config_.step_threads, config_.build.memory}; }
 
@@ -98,9 +96,6 @@ class Planner {
   Scene scene_;
   InputWatch inputs_;  // the scene's files
   std::unique_ptr<SpillFile> triangles_;
-  PilotConfig pilot_config_;
-  Pilot pilot_;
-  std::vector<CellRange> shards_;
   Plan plan_;
 };
 
@@ -159,33 +154,32 @@ void Planner::describe_inputs() {
     plan_.inputs.push_back({absolute_path(file.path), file.bytes, file.hash});
 }
 
-void Planner::survey() {
-  progress_->phase("survey", 0);
-  pilot_config_.descent = {config_.build.fast_paths,
-                           surface_rule(plan_.content.rule).rule};  // the inside has few nodes
-  pilot_config_.shards = config_.shards;
-  pilot_config_.table_bytes = workspace_.shares().pilot_table;
-  pilot_config_.triangle_bytes = workspace_.shares().triangles;
-  pilot_ = run_pilot(plan_.grid, plan_.bins, triangles_.get(), pilot_config_, workspace_.budget());
-  plan_.cells = pilot_.cells.size();
-  plan_.one_bake_cpu = cpu_of_bake(pilot_.work, pilot_.found, plan_.counts.scene.triangles);
-  shards_ = cut_evenly(pilot_.cells, pilot_.cell_level, config_.shards);
-}
-
 void Planner::make_steps() {
-  progress_->phase("survey shards", 0);
-  const std::vector<ShardWork> works =
-      survey_shards(plan_.grid, plan_.bins, triangles_.get(), pilot_config_, pilot_, shards_,
+  progress_->phase("survey", 0);
+  SurveyConfig config;
+  config.table_bytes = workspace_.shares().pilot_table;
+  config.triangle_bytes = workspace_.shares().triangles;
+  config.descent = {config_.build.fast_paths,
+                    surface_rule(plan_.content.rule).rule};  // the inside has few nodes
+  config.descent.memo_bytes = config.table_bytes / 8;
+  const Pilot pilot(plan_.grid, plan_.bins, triangles_.get(), config, config_.shards,
                     workspace_.budget());
-  add_shards(works);
-  add_merges(works);
+  plan_.cells = pilot.cells().size();
+  plan_.one_bake_cpu = cpu_of_bake(pilot.cost(), pilot.found(), plan_.counts.scene.triangles);
+  const std::vector<CellRange> shards =
+      cut_evenly(pilot.cells(), pilot.cell_level(), config_.shards);
+  progress_->phase("survey shards", 0);
+  const std::vector<ShardWork> works = pilot.works_of(shards);
+  add_shards(shards, works);
+  add_merges(works, pilot.found());
 }
 
-void Planner::add_shards(const std::vector<ShardWork>& works) {
-  for (size_t i = 0; i < shards_.size(); ++i) {
+void Planner::add_shards(const std::vector<CellRange>& shards,
+                         const std::vector<ShardWork>& works) {
+  for (size_t i = 0; i < shards.size(); ++i) {
     PlanStep step;
     step.name = shard_name(i + 1);
-    step.cells = shards_[i];
+    step.cells = shards[i];
     step.triangles = works[i].triangles;
     step.output = "runs/" + step.name + ".run";
     step.threads = config_.step_threads;
@@ -196,43 +190,43 @@ void Planner::add_shards(const std::vector<ShardWork>& works) {
 
 // Merging removes the nodes that shards have in common. The fraction that remains is 1 for one
 // shard and measured for all shards; between, its logarithm is interpolated linearly in the
-// logarithm of the number of shards.
-void Planner::add_merges(const std::vector<ShardWork>& works) {
-  const size_t shards = works.size();
-  std::vector<NodeCounts> found;          // unique in the output, by step
-  std::vector<NodeCounts> summed;         // sums over the shards below, by step
-  std::vector<size_t> leaves(shards, 1);  // number of shards below, by step
+// logarithm of the number of shards. `found`: by all shards together.
+void Planner::add_merges(const std::vector<ShardWork>& works, const NodeCounts& found) {
+  struct Output {
+    NodeCounts made;    // unique in the output
+    NodeCounts summed;  // over the shards below
+    size_t shards = 0;  // number of shards below
+  };
+  std::vector<Output> outputs;  // by step
   NodeCounts all;
   for (const ShardWork& work : works) {
-    found.push_back(work.found);
-    summed.push_back(work.found);
-    all.nodes += work.found.nodes;
-    all.bricks += work.found.bricks;
+    outputs.push_back({work.found, work.found, 1});
+    all += work.found;
   }
-  const double log_shards = std::log(double(std::max<size_t>(2, shards)));
-  const double node_share = std::min(1.0, pilot_.found.nodes / std::max(1.0, all.nodes));
-  const double brick_share = std::min(1.0, pilot_.found.bricks / std::max(1.0, all.bricks));
-  const MergeTree tree = merge_tree(shards, config_.fan_in);
+  const double log_shards = std::log(double(std::max<size_t>(2, works.size())));
+  const auto left_of = [&](double summed, double left, double every, size_t shards) {
+    const double share = std::min(1.0, left / std::max(1.0, every));
+    return summed * std::pow(share, std::log(double(shards)) / log_shards);
+  };
+  const MergeTree tree = merge_tree(works.size(), config_.fan_in);
   for (size_t m = 0; m < tree.size(); ++m) {
     PlanStep step;
     step.name = merge_name(m + 1);
     step.inputs = tree[m];
-    NodeCounts read, sum;
-    size_t count = 0;
+    NodeCounts read;
+    Output output;
     for (const size_t i : step.inputs) {
-      read = {read.nodes + found[i].nodes, read.bricks + found[i].bricks};
-      sum = {sum.nodes + summed[i].nodes, sum.bricks + summed[i].bricks};
-      count += leaves[i];
+      read += outputs[i].made;
+      output.summed += outputs[i].summed;
+      output.shards += outputs[i].shards;
     }
-    const double exponent = std::log(double(count)) / log_shards;
-    found.push_back(
-        {sum.nodes * std::pow(node_share, exponent), sum.bricks * std::pow(brick_share, exponent)});
-    summed.push_back(sum);
-    leaves.push_back(count);
+    output.made = {left_of(output.summed.nodes, found.nodes, all.nodes, output.shards),
+                   left_of(output.summed.bricks, found.bricks, all.bricks, output.shards)};
     const bool last = m + 1 == tree.size();
     step.output = last ? config_.output : "runs/" + step.name + ".run";
     step.threads = 1;
-    step.predicted = predict_merge(read, found.back(), last, {1, config_.build.memory});
+    step.predicted = predict_merge(read, output.made, last, {1, config_.build.memory});
+    outputs.push_back(output);
     plan_.steps.push_back(step);
   }
 }

@@ -10,14 +10,13 @@ namespace svdag {
 namespace {
 
 // Seconds, as printed by tests/bench/plan.py --calibrate.
-constexpr double kStart = 0.0207;            // start of a process
-constexpr double kSceneTriangle = 892.9e-9;  // read, snapped, sorted into cells and prepared
-constexpr double kPlanTriangle = 561.2e-9;   // read from a bin and prepared
-constexpr double kDivided = 366.5e-9;        // a cube divided
-constexpr double kComputed = 83.32e-9;       // a node computed for the plane memo
-constexpr double kFound = 377.4e-9;          // a unique node: numbered, sorted, written
-constexpr double kMergeRead = 111.8e-9;
-constexpr double kNodeInFile = 22.7;  // bytes of a node in a .svdag
+constexpr double kStart = 0.00844;       // start of a process
+constexpr double kTriangle = 777.3e-9;   // read, snapped or from a bin, and prepared
+constexpr double kDivided = 319.7e-9;    // a cube divided
+constexpr double kComputed = 168.2e-9;   // a node computed for the plane memo
+constexpr double kFound = 193.3e-9;      // a unique node: numbered, sorted, written
+constexpr double kMergeRead = 83.46e-9;  // a node that a merge reads
+constexpr double kNodeInFile = 22.4;  // bytes of a node in a .svdag
 
 constexpr uint64_t kMiB = uint64_t(1) << 20;
 
@@ -35,12 +34,12 @@ uint64_t budget_for(double need, const StepLimits& limits) {
 
 }  // namespace
 
-double cpu_of(const Work& work) {
-  return kDivided * work.divided + kComputed * work.computed;
+double descent_cpu(double divided, double computed) {
+  return kDivided * divided + kComputed * computed;
 }
 
-double cpu_of_bake(const Work& work, const NodeCounts& found, uint64_t triangles) {
-  return kStart + kSceneTriangle * double(triangles) + cpu_of(work) + kFound * found.keys();
+double cpu_of_bake(double cost, const NodeCounts& found, uint64_t triangles) {
+  return kStart + kTriangle * double(triangles) + cost + kFound * found.keys();
 }
 
 Prediction predict_shard(const ShardWork& shard, const StepLimits& limits) {
@@ -51,8 +50,7 @@ Prediction predict_shard(const ShardWork& shard, const StepLimits& limits) {
       2 * (kFreezeBytesPerNode * shard.found.nodes + kFreezeBytesPerBrick * shard.found.bricks);
   const double bin = 4 * kPerTriangle * double(shard.heaviest_bin);
   Prediction p;
-  p.cpu = kStart + kPlanTriangle * double(shard.triangles) + cpu_of(shard.work) +
-          kFound * shard.found.keys();
+  p.cpu = cpu_of_bake(shard.cost, shard.found, shard.triangles);
   p.seconds = kStart + (p.cpu - kStart) / double(limits.threads);
   p.budget = budget_for(kMargin * std::max(tables, bin), limits);
   p.memory = p.budget + kBesideBudget;

@@ -8,7 +8,6 @@
 #pragma once
 
 #include "builder/farm/plan/plan.h"
-#include "builder/farm/planner/survey.h"
 
 namespace svdag {
 
@@ -16,12 +15,17 @@ namespace svdag {
 struct NodeCounts {
   double nodes = 0, bricks = 0;
 
+  NodeCounts& operator+=(const NodeCounts& other) {
+    nodes += other.nodes;
+    bricks += other.bricks;
+    return *this;
+  }
   double keys() const { return nodes + bricks; }
   double run_bytes() const { return 32 * nodes + 8 * bricks; }
 };
 
-// CPU seconds of voxelizing.
-double cpu_of(const Work& work);
+// CPU seconds of voxelizing: `divided` cubes, and `computed` nodes for the plane memo.
+double descent_cpu(double divided, double computed);
 
 // Limits of the resources of a step.
 struct StepLimits {
@@ -30,7 +34,7 @@ struct StepLimits {
 };
 
 struct ShardWork {
-  Work work;
+  double cost = 0;            // CPU seconds of voxelizing
   NodeCounts found;           // unique in the shard
   uint64_t triangles = 0;     // in the bins that it reads
   uint64_t heaviest_bin = 0;  // triangles of the heaviest of these bins
@@ -43,7 +47,7 @@ Prediction predict_shard(const ShardWork& shard, const StepLimits& limits);
 Prediction predict_merge(const NodeCounts& read, const NodeCounts& made, bool last,
                          const StepLimits& limits);
 
-// CPU seconds of baking a scene of `triangles` triangles without a plan.
-double cpu_of_bake(const Work& work, const NodeCounts& found, uint64_t triangles);
+// CPU seconds of baking a scene of `triangles` triangles without a plan. `cost`: of voxelizing.
+double cpu_of_bake(double cost, const NodeCounts& found, uint64_t triangles);
 
 }  // namespace svdag
