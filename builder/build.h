@@ -13,6 +13,7 @@
 #include "builder/overlap/overlap.h"
 #include "builder/split/split.h"
 #include "io/dag/format.h"
+#include "streaming/file/file.h"
 #include "streaming/process/executor.h"
 #include "streaming/process/progress.h"
 
@@ -58,7 +59,7 @@ struct SceneFile {
   uint64_t bytes = 0;
   std::string hash;  // XXH3-128 of the content, 32 hex digits
 
-  std::string name() const { return path.substr(path.find_last_of('/') + 1); }
+  std::string name() const { return base_name(path); }
 };
 
 // The description_hash of the report that this bake would give. Reads all files of the scene.

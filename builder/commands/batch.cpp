@@ -12,12 +12,13 @@
 #include <optional>
 
 #include "builder/commands/batch_record.h"
-#include "builder/commands/command_files.h"
+#include "builder/commands/inputs.h"
 #include "builder/commands/options.h"
 #include "builder/run/bake_output.h"
 #include "io/json_text.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
+#include "streaming/file/command_files.h"
 #include "streaming/process/interrupt.h"
 
 namespace svdag {
@@ -117,7 +118,7 @@ void reject_overwriting(const BatchCommand& batch, const std::vector<BakeCommand
     files.read(job.build.scene.paths);
     if (!buffers) continue;
     try {
-      files.read_buffers(job.build.scene, job.build.memory);
+      read_buffers(job.build.scene, job.build.memory, &files);
     } catch (const Error&) {  // the bake reports it
     }
   }

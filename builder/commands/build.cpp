@@ -5,14 +5,15 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "builder/commands/command_files.h"
 #include "builder/commands/commands.h"
+#include "builder/commands/inputs.h"
 #include "builder/commands/scene_notes.h"
 #include "builder/run/bake_output.h"
 #include "io/json_text.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
+#include "streaming/file/command_files.h"
 #include "streaming/process/interrupt.h"
 #include "streaming/spill/scratch_dir.h"
 
@@ -204,11 +205,10 @@ void print_summary(const BakeCommand& config, const BuildReport& r) {
 
 void reject_overwriting(const BakeCommand& command) {
   const std::vector<std::string> outputs = outputs_of(command);
-  CommandFiles files;
-  files.read(command.build.scene.paths);
+  CommandFiles files(command.build.scene.paths);
   // Opening the scene is needed only if an output exists: the buffers of a scene exist.
   if (std::any_of(outputs.begin(), outputs.end(), name_exists))
-    files.read_buffers(command.build.scene, command.build.memory);
+    read_buffers(command.build.scene, command.build.memory, &files);
   for (const std::string& output : outputs) files.write(output);
   require_dag_name(command.build.output);
 }

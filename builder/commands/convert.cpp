@@ -9,14 +9,13 @@
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
 #include "streaming/file/checksum.h"
-#include "streaming/file/file_names.h"
+#include "streaming/file/command_files.h"
 
 namespace svdag {
 
 int run(const ConvertCommand& config) {
   const std::string& path = config.output_path;
-  if (same_file(config.file, path))
-    fail_usage(path + " is also the input, which is never overwritten: choose another output");
+  CommandFiles({config.file}).write(path);
   require_dag_name(path, false);
   AtomicFile::check(path, config.output.no_clobber);
   MemoryBudget budget(memory_or_default(config.memory));

@@ -6,15 +6,15 @@
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
-#include "streaming/file/file_names.h"
+#include "streaming/file/command_files.h"
 
 namespace svdag {
 namespace {
 
 void check_output(const EditConfig& edit, bool no_clobber) {
-  if (same_file(edit.first, edit.output) || (edit.second && same_file(*edit.second, edit.output)))
-    fail_usage(edit.output +
-               " is also an input, which is never overwritten: choose another output");
+  CommandFiles files({edit.first});
+  if (edit.second) files.read(*edit.second);
+  files.write(edit.output);
   require_dag_name(edit.output, false);
   AtomicFile::check(edit.output, no_clobber);
 }

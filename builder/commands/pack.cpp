@@ -12,21 +12,13 @@
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
 #include "streaming/file/checksum.h"
-#include "streaming/file/file_names.h"
+#include "streaming/file/command_files.h"
 
 namespace svdag {
-namespace {
-
-void reject_input(const std::string& file, const std::string& output) {
-  if (same_file(file, output))
-    fail_usage(output + " is also the input, which is never overwritten: choose another output");
-}
-
-}  // namespace
 
 int run(const PackCommand& config) {
   const std::string& path = config.output_path;
-  reject_input(config.file, path);
+  CommandFiles({config.file}).write(path);
   if (!path.ends_with(".pack")) fail_usage(path + ": the output must end in .pack");
   AtomicFile::check(path, config.output.no_clobber);
   MemoryBudget budget(memory_or_default(config.memory));
@@ -43,7 +35,7 @@ int run(const PackCommand& config) {
 
 int run(const UnpackCommand& config) {
   const std::string& path = config.output_path;
-  reject_input(config.file, path);
+  CommandFiles({config.file}).write(path);
   require_dag_name(path, false);
   AtomicFile::check(path, config.output.no_clobber);
   MemoryBudget budget(memory_or_default(config.memory));

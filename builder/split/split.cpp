@@ -8,6 +8,7 @@
 #include "builder/split/solid_watch.h"
 #include "io/lattice.h"
 #include "streaming/error.h"
+#include "streaming/file/file.h"
 #include "streaming/process/stage.h"
 
 namespace svdag {
@@ -95,7 +96,7 @@ class TriangleStore {
 void require_different_names(const std::vector<std::string>& paths) {
   std::set<std::string> names;
   for (const std::string& path : paths) {
-    const std::string name = path.substr(path.find_last_of('/') + 1);
+    const std::string name = base_name(path);
     if (!names.insert(name).second)
       fail_usage("--layers file: two files of the scene are named " + name + ": rename one");
   }

@@ -14,6 +14,7 @@
 #include "io/scene/readers/ply_header.h"
 #include "io/scene/readers/text_scan.h"
 #include "streaming/error.h"
+#include "streaming/file/file.h"
 #include "streaming/process/interrupt.h"
 
 namespace svdag {
@@ -34,10 +35,6 @@ bool surely_finite(std::span<const Triangle> triangles) {
     for (int a = 0; a < 3; ++a) sum[a] += (t.v[0][a] + t.v[1][a]) + t.v[2][a];
   }
   return std::isfinite((sum.x + sum.y) + sum.z);
-}
-
-std::string base_name(const std::string& path) {
-  return path.substr(path.find_last_of('/') + 1);
 }
 
 // A filter between a reader and the user's sink that rejects triangles with NaN or infinity.

@@ -281,6 +281,10 @@ std::string folder_of(const std::string& path) {
   return slash == 0 ? "/" : path.substr(0, slash);
 }
 
+std::string base_name(const std::string& path) {
+  return path.substr(path.find_last_of('/') + 1);
+}
+
 bool name_exists(const std::string& path) {
   struct stat status;
   if (::stat(path.c_str(), &status) == 0) return true;
@@ -289,11 +293,6 @@ bool name_exists(const std::string& path) {
   if (folder < 0) return false;
   ::close(folder);
   return ::stat(path.c_str(), &status) == 0;
-}
-
-bool same_file(const std::string& a, const std::string& b) {
-  struct stat left, right;
-  return ::stat(a.c_str(), &left) == 0 && ::stat(b.c_str(), &right) == 0 && is_same(left, right);
 }
 
 }  // namespace svdag

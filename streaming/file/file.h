@@ -101,11 +101,11 @@ bool is_locked(const std::string& path);
 void sync_folder(const std::string& folder);
 // The folder part of `path`; "." if it has none.
 std::string folder_of(const std::string& path);
+// What is after the last slash of `path`.
+std::string base_name(const std::string& path);
 // True if `path` exists, after following links. NFS clients cache missing names for a while: a
 // missing one is looked up again after its folder was opened, which makes the client query the
 // server.
 bool name_exists(const std::string& path);
-// True if both paths name the same existing file.
-bool same_file(const std::string& a, const std::string& b);
 
 }  // namespace svdag

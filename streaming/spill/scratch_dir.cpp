@@ -16,10 +16,6 @@ constexpr const char* kOwner = "owner";
 constexpr const char* kEnding = ".scratch";
 constexpr size_t kMaxNameBytes = 255;  // of Linux's file systems
 
-std::string name_of(const std::string& path) {
-  return path.substr(path.find_last_of('/') + 1);
-}
-
 // The first `max_bytes` bytes of `name`, or fewer to end between two UTF-8 characters.
 std::string shortened(const std::string& name, size_t max_bytes) {
   if (name.size() <= max_bytes) return name;
@@ -38,7 +34,7 @@ bool has_only_foreign_files(const std::vector<std::string>& names) {
 }  // namespace
 
 std::string ScratchDir::path_for(const std::string& output, const std::string& under) {
-  const std::string name = name_of(output);
+  const std::string name = base_name(output);
   if (under.empty() && (name + kEnding).size() <= kMaxNameBytes) return output + kEnding;
   const std::string absolute = absolute_path(output);
   char hash[17];

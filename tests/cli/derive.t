@@ -29,7 +29,7 @@ $ svdag info small.svdag --levels | tail -3
 |       6             14,688            370          2,960          2,960  (4x4x4 bricks)
 |       7             74,982             43                                (2x2x2 blocks, inside the bricks)
 $ svdag convert plain.svdag -o plain.svdag --layout compact
-! svdag: plain.svdag is also the input, which is never overwritten: choose another output
+! svdag: plain.svdag is also an input, which is never overwritten: choose another output
 ? 2
 $ svdag convert plain.svdag -o other.svdag
 ! svdag: convert: give --layout, --layer, --level or --bounds

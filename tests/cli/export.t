@@ -302,7 +302,7 @@ $ svdag export a.svdag -o a.vdb --bounds=1,2,3
 ! svdag: --bounds: "1,2,3" is not x0,y0,z0,x1,y1,z1 with the minimum first
 ? 2
 $ svdag export a.svdag -o a.svdag --format vdb
-! svdag: a.svdag: is the input; choose another name for the output
+! svdag: a.svdag is also an input, which is never overwritten: choose another output
 ? 2
 $ svdag export a.svdag -o a.vdb --max-voxels 3
 ! svdag: --max-voxels: only npz, binvox, vox and ply list voxels, the format is vdb
@@ -321,10 +321,10 @@ $ cp a.svdag x.octreenodes
 $ cp a.svdag y.svdag
 $ ln -s y.svdag y.octreedata
 $ svdag export x.octreenodes --format octree -o x.octree
-! svdag: x.octreenodes: is the input; choose another name for the output
+! svdag: x.octreenodes is also an input, which is never overwritten: choose another output
 ? 2
 $ svdag export y.svdag -o y.octree
-! svdag: y.octreedata: is the input; choose another name for the output
+! svdag: y.octreedata is also an input, which is never overwritten: choose another output
 ? 2
 $ cmp a.svdag x.octreenodes
 $ cmp a.svdag y.svdag

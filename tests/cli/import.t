@@ -130,7 +130,7 @@ $ svdag import a.ply -o b.svdag
 ! svdag: a.ply: is a mesh or points without a grid: bake a mesh with svdag build; export voxels as .npz to import them
 ? 3
 $ svdag import a.vox -o a.vox
-! svdag: a.vox: is the input; choose another name for the output
+! svdag: a.vox is also an input, which is never overwritten: choose another output
 ? 2
 $ svdag import a.vox -o b.svdag -r 32
 ! svdag: -r: the voxels need a resolution of at least 64

@@ -177,16 +177,16 @@ $ ln -s folder link
 $ trace() { svdag-trace a.svdag --size 4x4 --samples 1 --rounds 1 "$@" > traced 2>&1 || { echo "exit $?"; cat traced; }; }
 $ trace --dump x --picture x
 | exit 2
-| svdag-trace: x: would be written twice; choose another name for one of the outputs
+| svdag-trace: x would be written twice: choose another name for one of the results
 $ trace --dump x --picture ./x
 | exit 2
-| svdag-trace: ./x: would be written twice; choose another name for one of the outputs
+| svdag-trace: ./x would be written twice: choose another name for one of the results
 $ trace --dump "$PWD/x" --picture folder/../x
 | exit 2
-| svdag-trace: folder/../x: would be written twice; choose another name for one of the outputs
+| svdag-trace: folder/../x would be written twice: choose another name for one of the results
 $ trace --dump folder/x --picture link/x
 | exit 2
-| svdag-trace: link/x: would be written twice; choose another name for one of the outputs
+| svdag-trace: link/x would be written twice: choose another name for one of the results
 $ ls . folder
 | .:
 | a.svdag
@@ -196,12 +196,12 @@ $ ls . folder
 | traced
 |
 | folder:
-# The same for outputs that exist under another name.
+# Links to one file are replaced: they become two files.
 $ touch here
 $ ln here there
 $ trace --dump here --picture there
-| exit 2
-| svdag-trace: there: would be written twice; choose another name for one of the outputs
+$ cmp -s here there
+? 1
 $ trace --dump folder/x --picture x
 $ ls . folder
 | .:
@@ -236,14 +236,14 @@ $ for name in a.svdag ./a.svdag soft.svdag hard.svdag; do
 | exit 2
 | exit 2
 | exit 2
-! svdag-trace: a.svdag: is the input; choose another name for the output
-! svdag-trace: a.svdag: is the input; choose another name for the output
-! svdag-trace: ./a.svdag: is the input; choose another name for the output
-! svdag-trace: ./a.svdag: is the input; choose another name for the output
-! svdag-trace: soft.svdag: is the input; choose another name for the output
-! svdag-trace: soft.svdag: is the input; choose another name for the output
-! svdag-trace: hard.svdag: is the input; choose another name for the output
-! svdag-trace: hard.svdag: is the input; choose another name for the output
+! svdag-trace: a.svdag is also an input, which is never overwritten: choose another output
+! svdag-trace: a.svdag is also an input, which is never overwritten: choose another output
+! svdag-trace: ./a.svdag is also an input, which is never overwritten: choose another output
+! svdag-trace: ./a.svdag is also an input, which is never overwritten: choose another output
+! svdag-trace: soft.svdag is also an input, which is never overwritten: choose another output
+! svdag-trace: soft.svdag is also an input, which is never overwritten: choose another output
+! svdag-trace: hard.svdag is also an input, which is never overwritten: choose another output
+! svdag-trace: hard.svdag is also an input, which is never overwritten: choose another output
 $ cmp a.svdag kept.svdag
 $ ls
 | a.svdag

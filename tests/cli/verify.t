@@ -83,7 +83,7 @@ $ svdag-verify report a.svdag c.json -o x.html 2>&1
 | svdag-verify: c.json: a number is not an integer or is out of range
 ? 3
 $ svdag-verify report a.svdag a.json -o a.json 2>&1
-| svdag-verify: a.json: is an input; choose another name for the page
+| svdag-verify: a.json is also an input, which is never overwritten: choose another output
 ? 2
 # Verdicts are shown beside the report, which may be left out; each must be about this file.
 $ svdag-verify mesh a.svdag a.ply --json > mesh.json
@@ -164,17 +164,17 @@ $ for name in a.svdag b.svdag ./b.svdag soft.svdag hard.svdag; do
 | exit 2
 | exit 2
 | exit 2
-! svdag-verify: a.svdag: is an input; choose another name for the difference
-! svdag-verify: b.svdag: is an input; choose another name for the difference
-! svdag-verify: ./b.svdag: is an input; choose another name for the difference
-! svdag-verify: soft.svdag: is an input; choose another name for the difference
-! svdag-verify: hard.svdag: is an input; choose another name for the difference
+! svdag-verify: a.svdag is also an input, which is never overwritten: choose another output
+! svdag-verify: b.svdag is also an input, which is never overwritten: choose another output
+! svdag-verify: ./b.svdag is also an input, which is never overwritten: choose another output
+! svdag-verify: soft.svdag is also an input, which is never overwritten: choose another output
+! svdag-verify: hard.svdag is also an input, which is never overwritten: choose another output
 $ svdag-verify vdb a.svdag a.vdb -q --write-diff ./a.vdb
-! svdag-verify: ./a.vdb: is an input; choose another name for the difference
+! svdag-verify: ./a.vdb is also an input, which is never overwritten: choose another output
 ? 2
 $ cp a.svdag fly_0002.png  # a frame is an output, too
 $ svdag-verify render fly_0002.png -o fly.png --fly 2 -q
-! svdag-verify: fly_0002.png: is the input; choose another name for the picture
+! svdag-verify: fly_0002.png is also an input, which is never overwritten: choose another output
 ? 2
 $ cmp fly_0002.png kept.svdag
 $ cmp a.svdag kept.svdag

@@ -112,7 +112,7 @@ $ svdag-verify diff a.svdag half.svdag --render bad.jpg
 ! svdag-verify: bad.jpg: pictures are PNG: choose a name in .png
 ? 2
 $ svdag-verify diff a.svdag half.svdag --render a.svdag
-! svdag-verify: a.svdag: is an input; choose another name for the difference
+! svdag-verify: a.svdag is also an input, which is never overwritten: choose another output
 ? 2
 $ svdag-verify diff a.svdag half.svdag --render bad.png --size 0x0
 ! svdag-verify: --size: "0x0" is not WIDTHxHEIGHT with 1 to 16384 pixels each

@@ -9,6 +9,7 @@
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
+#include "streaming/file/command_files.h"
 #include "streaming/file/file.h"
 #include "verify/commands/commands.h"
 #include "verify/compare/dag_diff.h"
@@ -94,12 +95,10 @@ void render_both(const DiffConfig& config, const DagFile& a, const DagFile& b, P
 
 // The outputs are none of the inputs, have the right names, and can be written.
 void check_outputs(const DiffConfig& config) {
+  CommandFiles files({config.a, config.b});
   for (const std::string& output : {config.write_diff, config.render}) {
     if (output.empty()) continue;
-    for (const std::string& input : {config.a, config.b}) {
-      if (same_file(input, output))
-        fail_usage(output + ": is an input; choose another name for the difference");
-    }
+    files.write(output);
     AtomicFile::check(output);
   }
   if (!config.write_diff.empty() && !config.write_diff.ends_with(".ply"))

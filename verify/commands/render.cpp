@@ -7,6 +7,7 @@
 #include "io/dag/open_dag.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
+#include "streaming/file/command_files.h"
 #include "streaming/file/file.h"
 #include "streaming/memory/memory_budget.h"
 #include "verify/commands/commands.h"
@@ -140,10 +141,10 @@ int run(const RenderCommandConfig& config) {
   if (config.frames && file.layers().empty())
     fail_usage("--frames: " + file.path() + " has no layers (svdag build --layers)");
   const int frames = config.frames ? int(file.layers().layers.size()) : config.fly.value_or(1);
+  CommandFiles files({config.file});
   for (int frame = 0; frame < frames; ++frame) {
     const std::string name = picture_name(config, frame);
-    if (same_file(config.file, name))
-      fail_usage(name + ": is the input; choose another name for the picture");
+    files.write(name);
     reject_other_picture_format(name, ".png", "pictures are PNG: choose a name in .png");
     AtomicFile::check(name);
   }

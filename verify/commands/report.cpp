@@ -4,6 +4,7 @@
 #include "io/dag/open_dag.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
+#include "streaming/file/command_files.h"
 #include "verify/commands/commands.h"
 #include "verify/report/report_html.h"
 #include "verify/trace/cpu.h"
@@ -67,12 +68,9 @@ std::vector<ReportPicture> make_pictures(const ReportConfig& config, const DagFi
 
 int run(const ReportConfig& config) {
   const Stopwatch stopwatch(config.common);
-  std::vector<std::string> inputs = config.inputs;
-  inputs.push_back(config.file);
-  for (const std::string& input : inputs) {
-    if (same_file(input, config.output))
-      fail_usage(config.output + ": is an input; choose another name for the page");
-  }
+  CommandFiles files(config.inputs);
+  files.read(config.file);
+  files.write(config.output);
   AtomicFile output(
       config.output);  // opened first, so that no work is lost if it cannot be written
   const DagFile file = open_dag(config.file);

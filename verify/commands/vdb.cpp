@@ -4,6 +4,7 @@
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
+#include "streaming/file/command_files.h"
 #include "verify/commands/commands.h"
 #include "verify/compare/compare_vdb.h"
 
@@ -52,9 +53,10 @@ void write_difference(const VdbConfig& config, const VdbComparison& comparison,
 
 int run(const VdbConfig& config) {
   const Stopwatch stopwatch(config.common);
-  if (same_file(config.write_diff, config.file) || same_file(config.write_diff, config.vdb))
-    fail_usage(config.write_diff + ": is an input; choose another name for the difference");
-  if (!config.write_diff.empty()) AtomicFile::check(config.write_diff);
+  if (!config.write_diff.empty()) {
+    CommandFiles({config.file, config.vdb}).write(config.write_diff);
+    AtomicFile::check(config.write_diff);
+  }
   Progress progress(config.common.progress);
   progress.phase("checksums", 0);
   const DagFile file = open_dag(config.file);

@@ -11,6 +11,7 @@
 #include "io/verdict.h"
 #include "streaming/error.h"
 #include "streaming/file/checksum.h"
+#include "streaming/file/file.h"
 #include "verify/report/report_plots.h"
 #include "verify/report/report_style.h"
 #include "verify/report/report_text.h"
@@ -47,7 +48,7 @@ class Page {
 
   std::string make(const std::vector<ReportPicture>& pictures, const EmbeddedViewer& viewer = {}) {
     const std::string& output = file_.path();
-    const std::string name = escaped(output.substr(output.find_last_of('/') + 1));
+    const std::string name = escaped(base_name(output));
     // The policy prevents the browser from loading anything from elsewhere.
     out_ =
         "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><meta name=\"viewport\" "

@@ -4,6 +4,7 @@
 
 #include "io/dag/occupied_bounds.h"
 #include "streaming/file/checksum.h"
+#include "streaming/file/file.h"
 
 namespace svdag {
 
@@ -18,7 +19,7 @@ std::string scene_json(const DagFile& file, const TileCutter& cutter, const Scen
                       {"colour", {layer.colour.r, layer.colour.g, layer.colour.b}},
                       {"voxels", layer.voxels}});
   const Json scene = {
-      {"name", path.substr(path.find_last_of('/') + 1)},
+      {"name", base_name(path)},
       {"content_hash", to_hex(file.header().content_hash)},
       {"levels", dag.levels},
       {"shown_levels", cutter.levels()},

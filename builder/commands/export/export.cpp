@@ -15,6 +15,7 @@
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
+#include "streaming/file/command_files.h"
 
 namespace svdag {
 namespace {
@@ -74,10 +75,8 @@ void reject_options_of_other_formats(const FormatRow& row, const ExportConfig& c
 void reject_input_as_output(const FormatRow& row, const ExportConfig& config) {
   auto files = row.files != nullptr ? row.files(config.output) : std::vector{config.output};
   if (config.colours) files.push_back(hashdag_colours_path(config.output));
-  for (const std::string& file : files) {
-    if (same_file(config.file, file))
-      fail_usage(file + ": is the input; choose another name for the output");
-  }
+  CommandFiles command({config.file});
+  for (const std::string& file : files) command.write(file);
 }
 
 // Colours beside a HashDAG are taken for its own.

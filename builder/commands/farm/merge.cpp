@@ -5,19 +5,17 @@
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
+#include "streaming/file/command_files.h"
 
 namespace svdag {
 namespace {
 
-void reject_overwriting_inputs(const MergeRunsConfig& config) {
-  for (size_t i = 0; i < config.runs.size(); ++i) {
-    if (same_file(config.runs[i], config.output))
-      fail_usage(config.output +
-                 " is also an input, which is never overwritten: choose another output");
-    for (size_t j = 0; j < i; ++j) {
-      if (same_file(config.runs[i], config.runs[j])) fail_usage(config.runs[i] + " is given twice");
-    }
+void check_files(const MergeRunsConfig& config) {
+  CommandFiles files;
+  for (const std::string& run : config.runs) {
+    if (!files.read(run)) fail_usage(run + " is given twice");
   }
+  files.write(config.output);
   require_dag_name(config.output);
 }
 
@@ -42,7 +40,7 @@ void print_summary(const MergeCommand& config, const MergeRunsReport& r) {
 int run(const MergeCommand& config) {
   reject_plans(config.merge.runs);
   if (config.merge.output.empty()) fail_usage("--output: the output has no name");
-  reject_overwriting_inputs(config.merge);
+  check_files(config.merge);
   AtomicFile::check(config.merge.output);
   ParallelExecutor executor(threads_or_all(config.threads));
   Progress progress(config.output.mode());

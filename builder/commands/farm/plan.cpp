@@ -1,12 +1,12 @@
 #include <cstdio>
 
-#include "builder/commands/command_files.h"
 #include "builder/commands/commands.h"
 #include "builder/commands/scene_notes.h"
 #include "builder/farm/plan/plan_folder.h"
 #include "builder/farm/planner/print_plan.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
+#include "streaming/file/command_files.h"
 #include "streaming/file/file_folder.h"
 
 namespace svdag {
@@ -14,7 +14,7 @@ namespace {
 
 // "scenes/hall.glb" and "scenes/hall.glb.gz" -> "hall.svdag".
 std::string output_name(const std::string& scene) {
-  std::string name = scene.substr(scene.find_last_of('/') + 1);
+  std::string name = base_name(scene);
   if (name.ends_with(".gz")) name.resize(name.size() - 3);
   return name.substr(0, name.find_last_of('.')) + ".svdag";
 }
@@ -28,8 +28,7 @@ Plan plan(PlanConfig config, const OutputConfig& output) {
 }  // namespace
 
 int run(const PlanCommand& config) {
-  CommandFiles files;
-  files.read(config.plan.build.scene.paths);
+  CommandFiles files(config.plan.build.scene.paths);
   for (const std::string& file : own_files(config.plan.folder)) files.write(file);
   const Plan made = plan(config.plan, config.output);
   if (config.output.quiet) return int(ExitCode::kOk);

@@ -2,8 +2,8 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "builder/commands/command_files.h"
 #include "builder/commands/commands.h"
+#include "builder/commands/inputs.h"
 #include "builder/farm/engines/run_step.h"
 #include "builder/farm/plan/step_name.h"
 #include "builder/run/bake_output.h"
@@ -61,7 +61,7 @@ void warn_of_full_disk(const PlanStep& step, const std::string& output,
 int do_step(const Plan& plan, const PlanStep& step, const StepConfig& config, size_t threads,
             const OutputConfig& output) {
   CommandFiles files;
-  files.read(plan, &step);
+  read_plan(plan, &step, &files);
   const std::string written = config.output.empty() ? plan.path(step.output) : config.output;
   files.write(written);
   if (!config.output.empty()) require_same_kind(step, config.output);

@@ -1,5 +1,5 @@
-#include "builder/commands/command_files.h"
 #include "builder/commands/commands.h"
+#include "builder/commands/inputs.h"
 #include "streaming/error.h"
 #include "streaming/process/interrupt.h"
 
@@ -8,7 +8,7 @@ namespace svdag {
 int run(const SubmitCommand& command) {
   const Plan plan = load_plan(command.plan, false);
   CommandFiles files;
-  files.read(plan);
+  read_plan(plan, nullptr, &files);
   if (!command.config.template_path.empty()) files.write(command.config.template_path);
   try {
     command.engine->submit(plan, command.config);

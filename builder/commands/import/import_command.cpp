@@ -21,6 +21,7 @@
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
+#include "streaming/file/command_files.h"
 #include "streaming/file/file_ending.h"
 
 namespace svdag {
@@ -146,8 +147,7 @@ std::vector<std::string> import_formats() {
 }
 
 int run(const ImportCommandConfig& config) {
-  if (same_file(config.file, config.import.output))
-    fail_usage(config.import.output + ": is the input; choose another name for the output");
+  CommandFiles({config.file}).write(config.import.output);
   require_dag_name(config.import.output, false);
   AtomicFile::check(config.import.output, config.no_clobber);
   const File file = File::open_read(config.file);

@@ -9,7 +9,7 @@
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/file_folder.h"
-#include "streaming/file/file_names.h"
+#include "streaming/file/file.h"
 
 namespace svdag {
 namespace {

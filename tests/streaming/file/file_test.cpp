@@ -130,16 +130,8 @@ TEST(File, FolderOfIsThePartBeforeTheLastSlash) {
   EXPECT_EQ(folder_of("a"), ".");
   EXPECT_EQ(folder_of("/a"), "/");
   EXPECT_EQ(folder_of("a/b/c"), "a/b");
-}
-
-TEST(File, SameFileComparesFilesNotNames) {
-  const TempFolder folder;
-  const std::string a = folder.write("a", "A"), b = folder.write("b", "A");
-  std::filesystem::create_symlink(a, folder.file("link"));
-  EXPECT_TRUE(same_file(a, folder.path() + "/./a"));
-  EXPECT_TRUE(same_file(a, folder.file("link")));
-  EXPECT_FALSE(same_file(a, b));
-  EXPECT_FALSE(same_file(folder.file("none"), folder.file("none")));
+  EXPECT_EQ(base_name("a"), "a");
+  EXPECT_EQ(base_name("a/b/c"), "c");
 }
 
 // A lack of system resources is not an error of the file: a farm retries 4 and 5, but not 3.

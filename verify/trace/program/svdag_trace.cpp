@@ -5,7 +5,7 @@
 
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
-#include "streaming/file/file_names.h"
+#include "streaming/file/command_files.h"
 #include "streaming/memory/memory_budget.h"
 #include "streaming/printable.h"
 #include "streaming/process/program.h"
@@ -199,14 +199,10 @@ void print_comparison_json(const TraceResults& cpu, const TraceResults& gpu,
 
 // Rejects outputs that are the input or each other, under any name.
 void check_outputs(const TraceOptions& options) {
-  FileNames written;
+  CommandFiles files({options.file});
   for (const std::string& output : {options.dump, options.picture}) {
     if (output.empty()) continue;
-    if (same_file(options.file, output))
-      fail_usage(output + ": is the input; choose another name for the output");
-    if (written.find(output) != nullptr)
-      fail_usage(output + ": would be written twice; choose another name for one of the outputs");
-    written.add(output);
+    files.write(output);
     AtomicFile::check(output);
   }
 }
