@@ -75,10 +75,8 @@ Json read_list(const std::string& path) {
   const File file = File::open_read(path);
   if (file.size() > kMaxListBytes)
     fail_input(path, "is too large for a list of bakes (max 64 MiB)");
-  std::string text(file.size(), ' ');
-  file.read_at(0, std::as_writable_bytes(std::span(text)));
   try {
-    Json list = Json::parse(text);
+    Json list = Json::parse(file.text());
     if (list.is_array()) return list;
   } catch (const Json::parse_error& error) {
     throw Error(ExitCode::kBadInput, "is not valid JSON", path, error.byte);

@@ -22,8 +22,7 @@ BatchRecord BatchRecord::read(const std::string& path) {
   if (!name_exists(path)) return record;
   const File file = File::open_read(path);
   if (file.size() > kMaxReportBytes) return record;
-  std::string text(file.size(), ' ');
-  file.read_at(0, std::as_writable_bytes(std::span(text)));
+  const std::string text = file.text();
   const auto limit_depth = [](int depth, Json::parse_event_t, const Json&) {
     if (depth > kMaxDepth) throw Error(ExitCode::kBadInput, "is nested too deeply");
     return true;

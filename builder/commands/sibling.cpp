@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
-#include "builder/farm/engines/process.h"
 #include "streaming/error.h"
+#include "streaming/process/child_process.h"
 
 namespace svdag {
 

@@ -10,7 +10,7 @@
 namespace svdag {
 namespace {
 
-void check_files(const MergeRunsConfig& config) {
+void check_run_files(const MergeRunsConfig& config) {
   CommandFiles files;
   for (const std::string& run : config.runs) {
     if (!files.read(run)) fail_usage(run + " is given twice");
@@ -40,7 +40,7 @@ void print_summary(const MergeCommand& config, const MergeRunsReport& r) {
 int run(const MergeCommand& config) {
   reject_plans(config.merge.runs);
   if (config.merge.output.empty()) fail_usage("--output: the output has no name");
-  check_files(config.merge);
+  check_run_files(config.merge);
   AtomicFile::check(config.merge.output);
   ParallelExecutor executor(threads_or_all(config.threads));
   Progress progress(config.output.mode());

@@ -11,6 +11,9 @@
 
 namespace svdag {
 
+// Time limits are this factor above the prediction, whose seconds are those of another machine.
+constexpr double kTimeMargin = 4;
+
 struct SubmitConfig {
   std::string program;  // svdag on the other machines; empty: this program
   std::string scratch;  // --scratch of the steps
@@ -32,6 +35,13 @@ extern const std::vector<FarmEngine> kFarmEngines;
 
 // Throws Error (kUsage) if no engine has this name.
 const FarmEngine& farm_engine(const std::string& name);
+
+// `path` as an absolute path. Links and ".." are kept, since hosts may resolve them differently.
+std::string absolute_unresolved(const std::string& path);
+
+// The command that starts `program` on other hosts: a name without a folder is looked up on their
+// PATH; an empty name means this program.
+std::string program_on_hosts(const std::string& program);
 
 // Slurm: job arrays of shards, and a job per merge that depends on its inputs.
 //

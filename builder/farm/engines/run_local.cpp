@@ -8,11 +8,11 @@
 #include <thread>
 
 #include "builder/farm/engines/live_table.h"
-#include "builder/farm/engines/process.h"
 #include "builder/farm/engines/run_step.h"
 #include "builder/farm/plan/plan_folder.h"
 #include "builder/farm/plan/receipt.h"
 #include "streaming/error.h"
+#include "streaming/process/child_process.h"
 #include "streaming/process/interrupt.h"
 #include "streaming/process/shell.h"
 
@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 using Time = std::filesystem::file_time_type;
 
 constexpr int kMaxAttempts = 2;
-constexpr auto kPollInterval = std::chrono::milliseconds(20);            // of our processes
+constexpr auto kStepPollInterval = std::chrono::milliseconds(20);            // of our processes
 constexpr auto kElsewherePollInterval = std::chrono::milliseconds(500);  // of other processes
 
 double seconds_since(Clock::time_point begin) {
@@ -69,7 +69,7 @@ class Runner {
       while (!is_over()) {
         check_interrupt();
         start_ready();
-        std::this_thread::sleep_for(kPollInterval);
+        std::this_thread::sleep_for(kStepPollInterval);
         for (size_t i = 0; i < rows_.size(); ++i) poll(i);
         table_.draw(rows_);
       }

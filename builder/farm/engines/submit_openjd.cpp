@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "builder/farm/engines/farm_engine.h"
-#include "builder/farm/engines/process.h"
 #include "builder/farm/plan/step_name.h"
 #include "streaming/file/atomic_file.h"
 #include "streaming/file/file.h"
@@ -15,8 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kTimeoutFactor = 4;  // margin, since predicted seconds are those of another machine
-constexpr int kMinSeconds = 600;
+constexpr int kMinTimeout = 600;                          // seconds
 constexpr const char* kNumber = "{{Task.Param.Number}}";  // of the shard or merge of a task
 
 // Open Job Description requires default paths to be relative.
@@ -86,7 +84,7 @@ Json step_json(const Plan& plan, const SubmitConfig& config, const Stage& stage)
              {{"onRun",
                {{"command", "{{Param.Svdag}}"},
                 {"args", arguments},
-                {"timeout", std::max(kMinSeconds, int(kTimeoutFactor * seconds))}}}}}}}};
+                {"timeout", std::max(kMinTimeout, int(kTimeMargin * seconds))}}}}}}}};
 }
 
 }  // namespace

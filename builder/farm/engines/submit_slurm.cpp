@@ -5,12 +5,12 @@
 #include <thread>
 
 #include "builder/farm/engines/farm_engine.h"
-#include "builder/farm/engines/process.h"
 #include "builder/farm/plan/plan_folder.h"
 #include "builder/farm/plan/receipt.h"
 #include "builder/farm/plan/step_name.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
+#include "streaming/process/child_process.h"
 #include "streaming/process/interrupt.h"
 #include "streaming/process/shell.h"
 
@@ -19,7 +19,6 @@ namespace {
 
 constexpr size_t kDefaultArraySize = 1000;  // if Slurm does not report MaxArraySize
 constexpr size_t kMaxArraySize = 10000;     // a longer task list may not fit in a command line
-constexpr double kTimeFactor = 4;  // margin, since predicted seconds are those of another machine
 constexpr uint64_t kMinMinutes = 10;
 constexpr uint64_t kMebibyte = uint64_t(1) << 20;
 constexpr auto kQueuePollInterval = std::chrono::milliseconds(500);
@@ -227,7 +226,7 @@ void Submission::submit(Job* job) {
   file.append(script_of(*job));
   file.commit();
   const bool array = is_array(*job);
-  const uint64_t minutes = std::max(kMinMinutes, uint64_t(kTimeFactor * job->seconds / 60) + 1);
+  const uint64_t minutes = std::max(kMinMinutes, uint64_t(kTimeMargin * job->seconds / 60) + 1);
   std::vector<std::string> command = {
       "sbatch",
       "--parsable",

@@ -189,13 +189,6 @@ std::string without_slashes(std::string path) {
   return path;
 }
 
-std::string read_all(const std::string& path) {
-  const File file = File::open_read(path);
-  std::string text(file.size(), ' ');
-  file.read_at(0, std::as_writable_bytes(std::span(text)));
-  return text;
-}
-
 }  // namespace
 
 size_t Plan::shards() const {
@@ -261,7 +254,7 @@ Plan load_plan(const std::string& folder, bool with_bins) {
   const std::string path = plan.path(kPlanJson);
   if (!is_plan(folder))
     fail_input(folder, "not a plan folder: plan.json is missing (create one with svdag plan)");
-  const std::string text = read_all(path);
+  const std::string text = File::open_read(path).text();
   std::string index_hash;
   try {
     parse(text, &plan, &index_hash);

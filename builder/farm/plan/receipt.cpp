@@ -39,8 +39,8 @@ std::optional<Receipt> read_receipt(const Plan& plan, const PlanStep& step) {
   const std::string path = receipt_path(plan, step);
   if (!name_exists(path)) return {};
   const File file = File::open_read(path);
-  std::string text(std::min(file.size(), kMaxReceiptBytes), ' ');
-  file.read_at(0, std::as_writable_bytes(std::span(text)));
+  if (file.size() > kMaxReceiptBytes) return {};
+  const std::string text = file.text();
   try {
     const Json json = Json::parse(text);
     if (json.at("plan") != plan.hash || json.at("step") != step.name) return {};

@@ -7,8 +7,8 @@
 #include <thread>
 
 #include "builder/farm/engines/farm_engine.h"
-#include "builder/farm/engines/process.h"
 #include "builder/farm/engines/run_local.h"
+#include "streaming/process/child_process.h"
 #include "streaming/process/shell.h"
 #include "streaming/spill/scratch_dir.h"
 #include "tests/builder/farm/plans.h"

@@ -1,4 +1,4 @@
-#include "builder/farm/engines/process.h"
+#include "streaming/process/child_process.h"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -149,17 +149,6 @@ std::string own_image() {
   std::error_code error;
   const std::string path = std::filesystem::read_symlink(kOwnImage, error).string();
   return error || path.ends_with(kDeleted) ? kOwnImage : path;
-}
-
-std::string absolute_unresolved(const std::string& path) {
-  std::error_code error;
-  const auto absolute = std::filesystem::absolute(path, error);
-  return error ? path : absolute.string();
-}
-
-std::string program_on_hosts(const std::string& program) {
-  if (program.empty()) return own_program();
-  return program.find('/') == std::string::npos ? program : absolute_unresolved(program);
 }
 
 }  // namespace svdag

@@ -1,4 +1,4 @@
-// Child processes: start, poll, run to completion, terminate; paths of programs.
+// Child processes: start, poll, run to completion, terminate; the path of this program.
 #pragma once
 
 #include <sys/types.h>
@@ -33,12 +33,5 @@ std::string own_program();
 
 // A path that starts exactly this program: its file, or /proc/self/exe if the file was replaced.
 std::string own_image();
-
-// `path` as an absolute path. Links and ".." are kept, since hosts may resolve them differently.
-std::string absolute_unresolved(const std::string& path);
-
-// The command that starts `program` on other hosts: a name without a folder is looked up on their
-// PATH; an empty name means this program.
-std::string program_on_hosts(const std::string& program);
 
 }  // namespace svdag
