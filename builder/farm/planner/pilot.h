@@ -7,14 +7,14 @@
 // smaller than voxels, and more than 3 times when they are larger.
 //
 // Costs add up, unique nodes do not: a larger part of a scene repeats itself more, and fine nodes
-// repeat themselves more than coarse ones. So the number of unique fine nodes is that of the sample
-// times a power of the ratio of the unique coarse nodes of the scene, or of a shard, to those of the
-// sample (Heaps' law).
+// repeat themselves more than coarse ones. So the number of unique nodes is the sample's times a
+// power of the ratio of unique coarse nodes, in the scene or in a shard to the sample (Heaps' law).
 //
-// Rejected: powers measured at two sizes of the sample, which predict no better; the power 1 (XX); a
-// ratio of costs per neighbourhood of drawn cells along the Morton curve, which predicts shards
-// hardly better than one ratio; one power for the sum of nodes and bricks (bytes of a step off by
-// 19 % instead of 5 %).
+// Rejected for nodes: a power measured at two sizes of the sample, which predicts no better; the
+// power 1 (40 % too many nodes at 64K^3); one power for the sum of nodes and bricks (bytes of a step
+// off by 19 % instead of 5 %). Rejected for costs: a ratio for the neighbourhood of each cell along
+// the Morton curve, which predicts shards hardly better; the ratio of the sums, which large plane
+// cells dominate (off by a factor of 2.6 instead of 1.6).
 #pragma once
 
 #include <map>
