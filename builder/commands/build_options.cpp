@@ -7,6 +7,7 @@
 
 #include "builder/commands/options.h"
 #include "io/help/command_line.h"
+#include "io/scene/scene_formats.h"
 #include "io/suggest.h"
 #include "io/units.h"
 #include "streaming/counts.h"
@@ -111,7 +112,7 @@ CLI::Option* add_result_options(CLI::App* app, BakeOptions* options, const char*
 void add_build_options(CLI::App* app, BakeOptions* options) {
   BuildConfig* const build = &options->bake.build;
   takes_files(app->add_option("SCENE", build->scene.paths, "Scene files; several are one scene"),
-              kSceneEndings)
+              scene_endings())
       ->required();
   takes_files(app->add_option("-o,--output", build->output, "The .svdag, or the .run, to write"),
               {".svdag", ".run"})

@@ -167,10 +167,6 @@ bool is_unknown_command(const CLI::App& program, int argc, char** argv) {
 
 }  // namespace
 
-const std::vector<std::string> kSceneEndings = {
-    ".ply", ".stl", ".obj", ".off",    ".gltf",   ".glb",    ".drc",    ".om",     ".fbx",
-    ".dae", ".3mf", ".3ds", ".ply.gz", ".stl.gz", ".obj.gz", ".off.gz", ".gltf.gz"};
-
 Manual manual_of(const CLI::App& program) {
   return describe(program, program.get_name());
 }

@@ -54,7 +54,4 @@ void add_layer(CLI::App* command, std::vector<std::string>* layers);
 void add_examples(CLI::App* command, const std::vector<std::string>& lines,
                   const std::string& before = "");
 
-// The name extensions of scene files.
-extern const std::vector<std::string> kSceneEndings;
-
 }  // namespace svdag

@@ -1,18 +1,10 @@
 #include "io/scene/scene.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <cmath>
-#include <cstring>
 
 #include "io/scene/decoders/gzip.h"
-#include "io/scene/foreign_formats.h"
-#include "io/scene/gltf/gltf_buffers.h"
-#include "io/scene/gltf/gltf_images.h"
-#include "io/scene/readers/mtl.h"
-#include "io/scene/readers/ply_header.h"
-#include "io/scene/readers/text_scan.h"
+#include "io/scene/scene_formats.h"
 #include "streaming/error.h"
 #include "streaming/file/file.h"
 #include "streaming/process/interrupt.h"
@@ -112,31 +104,6 @@ class ToWorld {
   std::vector<Triangle> placed_;
 };
 
-void read_file(const File& file, const ReadOptions& options, const TriangleSink& sink) {
-  const SceneFormat format = detect_format(file);
-  switch (format) {
-    case SceneFormat::kPly:
-      return read_ply(file, options, sink);
-    case SceneFormat::kStl:
-      return read_stl(file, options, sink);
-    case SceneFormat::kObj:
-      return read_obj(file, options, sink);
-    case SceneFormat::kOff:
-      return read_off(file, options, sink);
-    case SceneFormat::kGltf:
-      return read_gltf(file, options, sink);
-    case SceneFormat::kDraco:
-      return read_draco(file, options, sink);
-    case SceneFormat::kOpenMesh:
-      return read_openmesh(file, options, sink);
-    case SceneFormat::kFbx:
-    case SceneFormat::kCollada:
-    case SceneFormat::k3mf:
-    case SceneFormat::k3ds:
-      return read_with_assimp(file, format_name(format), options, sink);
-  }
-}
-
 // Appends "--include 'sky*'" for patterns that matched nothing; if not `allowed`, an Error.
 void append_unmatched(const char* option, const std::vector<std::string>& patterns,
                       const std::vector<bool>& used, const NameFilter::Use& use, bool allowed,
@@ -150,15 +117,6 @@ void append_unmatched(const char* option, const std::vector<std::string>& patter
                (near.empty() ? "the scene has no names" : "the nearest names are " + near) +
                " (--allow-empty goes on)");
   }
-}
-
-// "ply" for "a.PLY" and "a.ply.gz".
-std::string lower_extension(const std::string& path) {
-  std::string name = base_name(path);
-  for (char& c : name) c = char(std::tolower(static_cast<unsigned char>(c)));
-  if (name.ends_with(".gz")) name.resize(name.size() - 3);
-  const size_t dot = name.find_last_of('.');
-  return dot == std::string::npos ? "" : name.substr(dot + 1);
 }
 
 }  // namespace
@@ -206,10 +164,10 @@ SceneCounts Scene::read(const TriangleSink& sink, MeshBox* box_alone) const {
                         config_.colours ? &images_ : nullptr};
     if (config_.only) options.box_alone = nullptr;
     if (to_world == Affine()) {
-      read_file(file, options, filtered);
+      read_scene_file(detect_format(file), file, options, filtered);
     } else {
       options.box_alone = nullptr;  // that box would be the one of the file's coordinates
-      read_file(file, options, ToWorld(to_world, filtered));
+      read_scene_file(detect_format(file), file, options, ToWorld(to_world, filtered));
     }
   }
   const bool allowed = config_.allow_unmatched;
@@ -241,7 +199,8 @@ void Scene::fail_empty(const SceneCounts& counts) const {
   for (const std::string& path : config_.paths) {
     const File packed = File::open_read(path);
     const File& file = content_of(packed);
-    if (detect_format(file) == SceneFormat::kPly && is_point_cloud(file))
+    const SceneFormat& format = detect_format(file);
+    if (format.holds_only_points != nullptr && format.holds_only_points(file))
       why += "; " + base_name(path) +
              " holds points alone: reconstruct a surface first, for example with CloudCompare";
   }
@@ -254,64 +213,15 @@ InputWatch Scene::watch() const {
   return watch;
 }
 
-void Scene::visit_files(const std::function<void(const File&)>& visit) const {
+void Scene::visit_files(const VisitFile& visit) const {
   for (const std::string& path : config_.paths) {
     if (config_.names.excludes(PartKind::kFile, base_name(path))) continue;
     const File file = File::open_read(path);
     visit(file);
-    const SceneFormat format = detect_format(file);
-    if (format == SceneFormat::kObj && config_.colours) {
-      for (const std::string& beside : mtl_files(content_of(file))) visit(File::open_read(beside));
-    }
-    if (format != SceneFormat::kGltf) continue;
-    const GltfDocument document = load_gltf(content_of(file), budget_, config_.colours);
-    for (const File& buffer : GltfBuffers(document, budget_).files()) visit(buffer);
-    for (const File& image : image_files(document)) visit(image);
+    const SceneFormat& format = detect_format(file);
+    if (format.visit_beside != nullptr)
+      format.visit_beside(content_of(file), budget_, config_.colours, visit);
   }
-}
-
-SceneFormat detect_format(const File& file) {
-  std::array<char, 8> head{};
-  const auto bytes = std::as_writable_bytes(std::span(head));
-  is_gzip(file) ? unpack_start(file, bytes) : file.read_some_at(0, bytes);
-  std::string_view start(head.data(), head.size());
-  if (start.starts_with(kByteOrderMark)) start.remove_prefix(kByteOrderMark.size());
-  const std::string extension = lower_extension(file.path());
-  const bool stl = extension == "stl";  // the free text at its head may begin with any word
-  if (start.starts_with("ply") &&
-      std::string_view(stl ? "\r\n" : "\r\n \t").find(start[3]) != start.npos)
-    return SceneFormat::kPly;
-  if (start.starts_with(std::string_view("glTF\1\0\0\0", 8)) ||
-      start.starts_with(std::string_view("glTF\2\0\0\0", 8)))
-    return SceneFormat::kGltf;
-  if (start.starts_with("DRACO") && !stl) return SceneFormat::kDraco;
-  if (stl) return SceneFormat::kStl;
-  if (extension == "obj") return SceneFormat::kObj;
-  if (extension == "off") return SceneFormat::kOff;
-  if (extension == "gltf" || extension == "glb") return SceneFormat::kGltf;
-  if (extension == "ply") return SceneFormat::kPly;
-  if (extension == "drc") return SceneFormat::kDraco;
-  if (extension == "om") return SceneFormat::kOpenMesh;
-  if (extension == "fbx" || start.starts_with("Kaydara")) return SceneFormat::kFbx;
-  if (extension == "dae") return SceneFormat::kCollada;
-  if (extension == "3mf") return SceneFormat::k3mf;
-  if (extension == "3ds") return SceneFormat::k3ds;
-  if (start.starts_with("OFF")) return SceneFormat::kOff;
-  if (start.starts_with("solid")) return SceneFormat::kStl;
-  if (extension == "svdag")
-    fail_input(file.path(), "is a .svdag, not a scene: svdag info shows what it contains");
-  const std::string foreign = foreign_format_message(extension, start);
-  if (!foreign.empty()) fail_input(file.path(), foreign);
-  fail_input(file.path(),
-             "is not a supported scene file: svdag reads PLY, STL, OBJ, OFF, glTF, GLB, Draco, "
-             "OpenMesh, FBX, COLLADA, 3MF and 3DS files, also as .gz; OBJ and binary STL by the "
-             "ending of their names");
-}
-
-const char* format_name(SceneFormat format) {
-  constexpr const char* kNames[] = {"PLY",      "STL", "OBJ",     "OFF", "glTF", "Draco",
-                                    "OpenMesh", "FBX", "COLLADA", "3MF", "3DS"};
-  return kNames[size_t(format)];
 }
 
 }  // namespace svdag

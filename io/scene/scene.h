@@ -15,20 +15,6 @@
 
 namespace svdag {
 
-enum class SceneFormat {
-  kPly,
-  kStl,
-  kObj,
-  kOff,
-  kGltf,
-  kDraco,
-  kOpenMesh,
-  kFbx,
-  kCollada,
-  k3mf,
-  k3ds
-};
-
 // The parts that are layers of this kind, which is not kNone.
 constexpr PartKind part_of(LayerKind kind) {
   return PartKind(uint32_t(kind) - 1);  // the same order, after kNone
@@ -96,11 +82,5 @@ class Scene {
   mutable std::map<std::string, File> unpacked_;  // by path
   mutable ImageMeans images_;
 };
-
-// Detects the format by content, or by extension where content is ambiguous (.obj, .stl, .off). Of
-// a gzip file, only the first bytes are unpacked, and its ".gz" is ignored.
-// An unknown file is an Error (kBadInput) that lists what can be read.
-SceneFormat detect_format(const File& file);
-const char* format_name(SceneFormat format);
 
 }  // namespace svdag

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include "io/help/command_line.h"
+#include "io/scene/scene_formats.h"
 #include "io/units.h"
 #include "streaming/counts.h"
 #include "verify/commands/options.h"
@@ -43,7 +44,7 @@ void add_threads(CLI::App* command, CommonConfig* config) {
 
 void add_scene(CLI::App* command, SceneConfig* scene) {
   takes_files(command->add_option("SCENE", scene->paths, "The scene files it was baked from"),
-              kSceneEndings)
+              scene_endings())
       ->required();
   command
       ->add_option("--include", scene->names.include,

@@ -5,6 +5,7 @@
 
 #include "builder/commands/options.h"
 #include "io/help/command_line.h"
+#include "io/scene/scene_formats.h"
 #include "streaming/counts.h"
 #include "streaming/error.h"
 
@@ -42,7 +43,7 @@ void add_plan(CLI::App* program, Command* command) {
   PlanConfig* plan = &config->plan;
   takes_files(
       app->add_option("SCENE", plan->build.scene.paths, "Scene files; several are one scene"),
-      kSceneEndings)
+      scene_endings())
       ->required();
   takes_folder(app->add_option("-o,--output", plan->folder, "The folder of the plan, to create"))
       ->required()

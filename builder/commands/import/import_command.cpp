@@ -95,11 +95,8 @@ const FormatRow& choose(const ImportCommandConfig& config, const File& file) {
     fail_input(config.file,
                "is a mesh or points without a grid: bake a mesh with svdag build; export voxels as "
                ".npz to import them");
-  for (const std::string& ending : kSceneEndings) {
-    if (has_ending(config.file, ending))
-      fail_input(config.file, "is a scene: bake it with svdag build");
-  }
-  fail_input(config.file, "unknown file format: choose one with --format: " + names);
+  fail_input(config.file, "unknown file format: choose one with --format: " + names +
+                              " (svdag build bakes scenes)");
 }
 
 // Rejects options of OpenVDB grids for other formats, which would ignore them.

@@ -4,6 +4,7 @@
 
 #include "builder/commands/options.h"
 #include "io/help/command_line.h"
+#include "io/scene/scene_formats.h"
 #include "io/units.h"
 
 namespace svdag {
@@ -11,7 +12,7 @@ namespace svdag {
 void add_info(CLI::App* program, Command* command) {
   CLI::App* app = program->add_subcommand("info", "Describe a .svdag, a run, a plan or a scene");
   auto config = std::make_shared<InfoCommand>();
-  std::vector<std::string> endings = kSceneEndings;
+  std::vector<std::string> endings = scene_endings();
   endings.insert(endings.begin(), {".svdag", ".run"});
   takes_files(app->add_option("FILE", config->scene.paths,
                               "A .svdag or .run file, a plan, or the files of a scene"),

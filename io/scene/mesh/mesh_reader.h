@@ -97,9 +97,11 @@ void read_off(const File& file, const ReadOptions& options, const TriangleSink& 
 void read_gltf(const File& file, const ReadOptions& options, const TriangleSink& sink);  // and GLB
 void read_draco(const File& file, const ReadOptions& options, const TriangleSink& sink);
 void read_openmesh(const File& file, const ReadOptions& options, const TriangleSink& sink);  // .om
-// `format`: FBX, COLLADA, 3MF or 3DS.
-void read_with_assimp(const File& file, const std::string& format, const ReadOptions& options,
-                      const TriangleSink& sink);
+// With Assimp.
+void read_fbx(const File& file, const ReadOptions& options, const TriangleSink& sink);
+void read_collada(const File& file, const ReadOptions& options, const TriangleSink& sink);
+void read_3mf(const File& file, const ReadOptions& options, const TriangleSink& sink);
+void read_3ds(const File& file, const ReadOptions& options, const TriangleSink& sink);
 
 // Collects triangles and passes them on in batches of up to kBatch; used by all readers.
 class BatchWriter {

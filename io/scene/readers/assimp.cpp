@@ -143,18 +143,18 @@ Affine up_axis_to_y(const aiScene& scene) {
   return parse_up((sign < 0 ? "-" : "") + std::string(1, "xyz"[axis]));
 }
 
-// "fbx"; Assimp chooses the reader by it.
-std::string hint_of(const std::string& format) {
-  return format == "COLLADA" ? "dae" : format == "FBX" ? "fbx" : format == "3MF" ? "3mf" : "3ds";
-}
+struct AssimpFormat {
+  std::string name;
+  const char* hint;  // Assimp chooses its reader by it
+};
 
-void decode(const File& file, std::span<const std::byte> bytes, const std::string& format,
+void decode(const File& file, std::span<const std::byte> bytes, const AssimpFormat& format,
             const BlockSink& send) {
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
   const aiScene* scene = nullptr;
   try {
-    scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, hint_of(format).c_str());
+    scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, format.hint);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception&) {
@@ -163,7 +163,7 @@ void decode(const File& file, std::span<const std::byte> bytes, const std::strin
   const std::string why = importer.GetErrorString();
   if (why.find("bad_alloc") != why.npos) throw std::bad_alloc();
   if (scene == nullptr || scene->mRootNode == nullptr)
-    fail_input(file.path(), "is not a valid " + format + " file: " + why);
+    fail_input(file.path(), "is not a valid " + format.name + " file: " + why);
   Sender(file, *scene, send).send_node(*scene->mRootNode, up_axis_to_y(*scene), {}, 0);
 }
 
@@ -217,11 +217,9 @@ class Receiver {
   bool wanted_ = false;
 };
 
-}  // namespace
-
-void read_with_assimp(const File& file, const std::string& format, const ReadOptions& options,
+void read_with_assimp(const File& file, const AssimpFormat& format, const ReadOptions& options,
                       const TriangleSink& sink) {
-  const auto memory = options.budget->reserve(file.size(), (format + " files").c_str());
+  const auto memory = options.budget->reserve(file.size(), (format.name + " files").c_str());
   std::vector<std::byte> bytes(size_t(file.size()));
   file.read_at(0, bytes);
   Receiver receiver(file, options, sink);
@@ -230,6 +228,21 @@ void read_with_assimp(const File& file, const std::string& format, const ReadOpt
       [&](const BlockSink& send) { decode(file, bytes, format, send); },
       [&](std::span<const std::byte> block) { receiver.take(block); });
   receiver.finish();
+}
+
+}  // namespace
+
+void read_fbx(const File& file, const ReadOptions& options, const TriangleSink& sink) {
+  read_with_assimp(file, {"FBX", "fbx"}, options, sink);
+}
+void read_collada(const File& file, const ReadOptions& options, const TriangleSink& sink) {
+  read_with_assimp(file, {"COLLADA", "dae"}, options, sink);
+}
+void read_3mf(const File& file, const ReadOptions& options, const TriangleSink& sink) {
+  read_with_assimp(file, {"3MF", "3mf"}, options, sink);
+}
+void read_3ds(const File& file, const ReadOptions& options, const TriangleSink& sink) {
+  read_with_assimp(file, {"3DS", "3ds"}, options, sink);
 }
 
 }  // namespace svdag

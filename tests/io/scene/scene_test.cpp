@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "io/scene/scene_formats.h"
 #include "streaming/error.h"
 #include "tests/shared_scenes.h"
 #include "tests/temp_folder.h"
@@ -102,25 +103,25 @@ TEST_F(SceneFiles, UnknownAndMissingFilesAreRefused) {
 
 TEST_F(SceneFiles, TheFormatIsToldByContentBeforeTheExtension) {
   const auto format = [&](const std::string& name, const std::string& text) {
-    return detect_format(File::open_read(write(name, text)));
+    return std::string(detect_format(File::open_read(write(name, text))).name);
   };
-  EXPECT_EQ(format("a.obj", "ply\nformat"), SceneFormat::kPly);
-  EXPECT_EQ(format("a.stl", "glTF\2\0\0\0"), SceneFormat::kGltf);
-  EXPECT_EQ(format("a", "DRACO\2\2"), SceneFormat::kDraco);
-  EXPECT_EQ(format("a.STL", "anything"), SceneFormat::kStl);
-  EXPECT_EQ(format("a.stl", "plyconv output"), SceneFormat::kStl);
-  EXPECT_EQ(format("a.stl", "glTF to STL"), SceneFormat::kStl);
-  EXPECT_EQ(format("a.stl", "ply to stl converter"), SceneFormat::kStl);
-  EXPECT_EQ(format("a.stl", "DRACO to STL"), SceneFormat::kStl);
-  EXPECT_EQ(format("a.stl", "ply\nformat"), SceneFormat::kPly);
-  EXPECT_EQ(format("a", "\xEF\xBB\xBFOFF\n"), SceneFormat::kOff);
-  EXPECT_EQ(format("a.Obj", "solid"), SceneFormat::kObj);
-  EXPECT_EQ(format("a", "OFF\n"), SceneFormat::kOff);
-  EXPECT_EQ(format("a", "solid x"), SceneFormat::kStl);
-  EXPECT_EQ(format("a", "Kaydara FBX Binary"), SceneFormat::kFbx);
-  EXPECT_EQ(format("a.DAE.gz", "<?xml"), SceneFormat::kCollada);
-  EXPECT_EQ(format("a.3mf", "PK"), SceneFormat::k3mf);
-  EXPECT_EQ(format("a.3ds", "MM"), SceneFormat::k3ds);
+  EXPECT_EQ(format("a.obj", "ply\nformat"), "PLY");
+  EXPECT_EQ(format("a.stl", "glTF\2\0\0\0"), "GLB");
+  EXPECT_EQ(format("a", "DRACO\2\2"), "Draco");
+  EXPECT_EQ(format("a.STL", "anything"), "STL");
+  EXPECT_EQ(format("a.stl", "plyconv output"), "STL");
+  EXPECT_EQ(format("a.stl", "glTF to STL"), "STL");
+  EXPECT_EQ(format("a.stl", "ply to stl converter"), "STL");
+  EXPECT_EQ(format("a.stl", "DRACO to STL"), "STL");
+  EXPECT_EQ(format("a.stl", "ply\nformat"), "PLY");
+  EXPECT_EQ(format("a", "\xEF\xBB\xBFOFF\n"), "OFF");
+  EXPECT_EQ(format("a.Obj", "solid"), "OBJ");
+  EXPECT_EQ(format("a", "OFF\n"), "OFF");
+  EXPECT_EQ(format("a", "solid x"), "STL");
+  EXPECT_EQ(format("a", "Kaydara FBX Binary"), "FBX");
+  EXPECT_EQ(format("a.DAE.gz", "<?xml"), "COLLADA");
+  EXPECT_EQ(format("a.3mf", "PK"), "3MF");
+  EXPECT_EQ(format("a.3ds", "MM"), "3DS");
 }
 
 // The counts and boxes that were made with other software (six significant digits).

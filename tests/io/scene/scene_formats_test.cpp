@@ -1,5 +1,5 @@
 // A scene of a format that is not read is recognised by its name or by its first bytes.
-#include "io/scene/foreign_formats.h"
+#include "io/scene/scene_formats.h"
 
 #include <gtest/gtest.h>
 
