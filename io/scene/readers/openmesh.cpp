@@ -26,12 +26,12 @@ using Mesh = OpenMesh::PolyMesh_ArrayKernelT<DoubleTraits>;
 constexpr uint64_t kBytesPerElement = 128;  // halfedges, connectivity and status of one face
 
 // "OM", mesh type, version, then the numbers of vertices, faces and edges.
-struct Header {
+struct OmHeader {
   uint64_t vertices = 0;
   uint64_t faces = 0;
 };
 
-Header read_header(const File& file) {
+OmHeader read_header(const File& file) {
   std::array<unsigned char, 16> b;
   file.read_at(0, std::as_writable_bytes(std::span(b)));
   const auto u32 = [&](size_t at) {
@@ -39,7 +39,7 @@ Header read_header(const File& file) {
            uint32_t(b[at + 3]) << 24;
   };
   if (b[0] != 'O' || b[1] != 'M') fail_input(file.path(), "is not an OpenMesh file");
-  const Header header{u32(4), u32(8)};
+  const OmHeader header{u32(4), u32(8)};
   // A vertex takes 12 bytes or more, a face 3 or more, an edge one or more: OpenMesh allocates
   // memory for the counts given here.
   if (header.vertices > file.size() / 12 || header.faces > file.size() / 3 ||
@@ -83,7 +83,7 @@ void each_corner(const File& file, const Mesh& mesh, Mesh::FaceHandle face, uint
   } while (halfedge != first);
 }
 
-void decode(const File& file, std::span<const std::byte> bytes, const Header& header,
+void decode(const File& file, std::span<const std::byte> bytes, const OmHeader& header,
             const TriangleSink& sink) {
   Mesh mesh;
   load(file, bytes, &mesh);
@@ -103,7 +103,7 @@ void decode(const File& file, std::span<const std::byte> bytes, const Header& he
   out.flush();
 }
 
-void decode_limited(const File& file, std::span<const std::byte> bytes, const Header& header,
+void decode_limited(const File& file, std::span<const std::byte> bytes, const OmHeader& header,
                     const ChildLimits& limits, const TriangleSink& sink) {
   BatchWriter out(sink);
   run_limited(
@@ -124,7 +124,7 @@ void decode_limited(const File& file, std::span<const std::byte> bytes, const He
 
 void read_openmesh(const File& file, const ReadOptions& options, const TriangleSink& sink) {
   if (!options.wants("")) return;
-  const Header header = read_header(file);
+  const OmHeader header = read_header(file);
   const auto memory = options.budget->reserve(
       2 * file.size() + (header.vertices + header.faces) * kBytesPerElement, "OpenMesh files");
   std::vector<std::byte> bytes(size_t(file.size()));
