@@ -33,6 +33,9 @@
 // triangles so far, so tessellated walls are found too, although none of their triangles is large.
 // Rejected: half-open intervals in double (wrong on ties); a memo of child masks (no reuse between
 // parallel planes).
+// Rejected as well: one table for all levels (entries of bricks leave the CPU cache), larger
+// tables (fewer bricks computed, no less time), all eight children looked up before the first is
+// answered (their sets are cached already).
 #pragma once
 
 #include <array>

@@ -1,5 +1,9 @@
 // The k-way merge of one level: merges ascending sources with unique keys into one, and returns for
 // every source the map from its ranks to indices in the output.
+//
+// Rejected: one merge for this and for the records of imports (streaming/sort/parallel_merge.h):
+// numbering keys in pieces needs an index in every run and a count of the unique keys before
+// each piece, a second pass.
 #pragma once
 
 #include <algorithm>

@@ -5,6 +5,9 @@
 // After a flush the holders of handles convert them with settled(). A table persists across the
 // worker's cells; when it is frozen (builder/reduce/run.h) the numbers become ranks in content
 // order, so the arrival order does not affect the output.
+//
+// Rejected: handles cached over a flush (a numbered key is far away in memory, a pending one
+// near).
 #pragma once
 
 #include <array>

@@ -9,6 +9,8 @@
 // std::unordered_map (a node per key, pointer chasing), a table of keys (moved whenever it grows).
 //
 // Notation: a handle is a number, or kPending + the position among the keys not yet resolved.
+// Rejected as well: adding keys without a branch (the position of a key then waits for the
+// comparison before it), a larger cache of pending keys (no difference).
 #pragma once
 
 #include <array>

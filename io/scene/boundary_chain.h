@@ -17,6 +17,8 @@
 // not.
 // Rejected: a table of all edges (the largest scenes do not fit), and a fixed key (a scene could be
 // made to look closed).
+// Rejected as well: normal forms of lines modulo a prime instead of primitive directions (a
+// scene could be made to look closed).
 #pragma once
 
 #include <array>

@@ -20,6 +20,9 @@
 //
 // A tile is a function of the voxels and layers of its cube, not of the layout of the file:
 // sections, layer nodes and sets are in the order in which a depth-first walk completes them.
+//
+// Rejected as well: tiles of 256^3 cells (requests and passes over the picture cost more than
+// the bytes).
 #pragma once
 
 #include <array>

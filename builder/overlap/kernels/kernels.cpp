@@ -10,8 +10,7 @@
 namespace svdag {
 namespace {
 
-// Widest vectors that are chosen: 512 bits halve the steps of a brick but are slower
-// (docs/performance.md).
+// Widest vectors that are chosen. Rejected: 512 bits (half the steps of a brick, and not faster).
 constexpr int kMaxLanes = 8;
 
 void plain_children(const ListedTriangle* entries, size_t count, const LatticePoint& corner,

@@ -9,6 +9,10 @@
 // not (the safe side), but every vector target computes the same numbers in the same order, without
 // fused multiply-add. Voxels are exact on every target. The plain kernels
 // (builder/overlap/overlap.h) are the reference.
+//
+// Rejected as well: fused multiply-add (no gain, and unsure values would differ between
+// instruction sets), prefetches of the next triangle, and leaving a triangle as soon as a
+// projection leaves no voxel (no difference).
 #pragma once
 
 #include <cstddef>

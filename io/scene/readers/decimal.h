@@ -4,6 +4,8 @@
 // m <= 2^53 and k <= 22 is the quotient of two doubles that are exact, so that one division rounds
 // it correctly (Clinger 1990). Longer words, exponents and words that are not numbers go to
 // from_chars. Rejected: the same through a float quotient (few floats are that short).
+// Rejected as well: the library fast_float (slower for words of up to six digits, and 40 lines
+// saved).
 #pragma once
 
 #include <array>

@@ -4,7 +4,7 @@
 // call and every variable shift needs register cl; compiled for AVX2 and BMI (2013) it is 1.5 times
 // as fast. The attributes create a second copy of the loop and of everything it calls. Contraction
 // is off (-ffp-contract=off), so both copies compute the same bits. Rejected: a ray per vector lane
-// (docs/tracing.md).
+// (half of its time are gathers of nodes; faster for some kinds of rays only).
 #pragma once
 
 #if defined(__x86_64__)

@@ -15,6 +15,10 @@
 //
 // For host and CUDA. No cuts: levels are taken two at a time here, and a cut may make cubes between
 // them solid; cut rays are traced by traverse.h.
+//
+// Rejected: 12 or 16 rays in turns (at most 5 % faster, slower in bundles of 64), a loop over
+// the rays for each step (3 to 10 % slower), beginning in the deepest node of the ray before
+// (each climb is a mispredicted branch).
 #pragma once
 
 #include "verify/trace/kernel/cells64.h"
