@@ -55,7 +55,8 @@ class Examples(unittest.TestCase):
 
 # A command line for each command that has options with named values, in a folder with a small scene and its DAG, but
 # without a plan, so that none is submitted to a farm.
-LINES = {"svdag build": "city.ply -o other.svdag -r 64", "svdag plan": "city.ply -o other.plan -r 64 --shards 2",
+LINES = {"svdag build": "city.ply -o other.svdag -r 64", "svdag batch": "city.list -r 64",
+         "svdag plan": "city.ply -o other.plan -r 64 --shards 2",
          "svdag info": "city.ply", "svdag merge": "a.run -o merged.svdag", "svdag edit": "city.svdag -o edited.svdag --level 4",
          "svdag pack": "city.svdag -o city.pack", "svdag unpack": "city.pack -o unpacked.svdag",
          "svdag convert": "city.svdag -o converted.svdag", "svdag submit": "missing.plan", "svdag export": "city.svdag -o out.vdb", "svdag import": "city.npz -o in.svdag",

@@ -58,13 +58,17 @@ def is_convex(points):
     return len(signs) <= 1
 
 
+class ConcavePolygon(ValueError):
+    """A polygon that a fan does not triangulate."""
+
+
 class Soup:
     def __init__(self):
         self.values = array("d")
 
     def polygon(self, points):
         if len(points) > 3 and not is_convex(points):
-            raise ValueError("a concave polygon")
+            raise ConcavePolygon
         for i in range(2, len(points)):
             for p in (points[0], points[i - 1], points[i]):
                 self.values.extend(p)
