@@ -48,7 +48,7 @@ def baked(shared, kind, *options):
     if SCENES is None:
         scene = FOLDER / f"{kind}.obj"
         if not scene.exists():
-            program("svdag-scene", kind, "-n", "60K", "-o", scene)
+            program("svdag-scene", kind, "-n", "90K", "-o", scene)
     program("svdag", "build", scene, "-o", output, "-q", *options)
     return output
 
