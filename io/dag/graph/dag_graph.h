@@ -14,7 +14,7 @@ namespace svdag {
 class DagGraph final : public NodeGraph {
  public:
   // `levels`: 3 .. L; L for the file's own resolution. `chosen`: the only layers; empty: all, and
-  // the union. `file` must outlive this. Error (kUsage) if there is no such layer.
+  // the union. `file` must outlive this. Error (kUsage) if a layer is not in the file.
   DagGraph(const DagFile& file, int levels, const std::vector<std::string>& chosen = {});
   // Only the set that view() shows, as a graph without layers.
   static DagGraph of_view(const DagFile& file, int levels);
