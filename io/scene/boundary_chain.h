@@ -8,8 +8,8 @@
 // On a line a chain of segments vanishes iff its boundary does, so each directed edge a -> b adds
 // H(d, b) - H(d, a), where d is the primitive direction of its line, H a 128-bit hash with a random
 // key: a point and a direction determine the line. The sum is 0 for closed surfaces, and otherwise
-// not, but for a probability of 2^-128 a scene. Edges of zero length add nothing, and neither do
-// the edges of a triangle of zero area, together. Modulo 2, directions do not matter.
+// not, except with a probability of 2^-128 a scene. Edges of zero length add nothing, and neither
+// do the edges of a triangle of zero area, together. Modulo 2, directions do not matter.
 //
 // Most closed scenes have no T-junctions, and primitive directions take a greatest common divisor
 // for each edge. EdgeSum is cheaper: each directed edge adds or takes away the hash of its two

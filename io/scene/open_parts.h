@@ -1,8 +1,8 @@
 // The parts of a scene that are not closed surfaces: they bound no solid (--open surface).
 //
 // If the whole scene is closed, none is open: its parts may close each other. Otherwise each object
-// is tested alone, or each file where it has no objects; parts of one name are one part. A layer is
-// always tested alone: the walls of a room may be closed together, and each open.
+// is tested by itself, or each file where it has no objects; parts of one name are one part. A
+// layer is always tested by itself: the walls of a room may be closed together, and each open.
 #pragma once
 
 #include <set>

@@ -166,7 +166,7 @@ SceneCounts Scene::read(const TriangleSink& sink, MeshBox* box_alone) const {
     if (to_world == Affine()) {
       read_scene_file(detect_format(file), file, options, filtered);
     } else {
-      options.box_alone = nullptr;  // that box would be the one of the file's coordinates
+      options.box_alone = nullptr;  // it would hold coordinates of the file, not of the world
       read_scene_file(detect_format(file), file, options, ToWorld(to_world, filtered));
     }
   }
@@ -184,10 +184,10 @@ Box Scene::bounds(SceneCounts* counts) const {
     for (const Triangle& t : batch.triangles) grown.add(t);
     box = grown;
   };
-  MeshBox alone;
-  SceneCounts seen = read(grow, &alone);
-  seen.triangles += alone.triangles;
-  box.add(alone.box);
+  MeshBox unread;
+  SceneCounts seen = read(grow, &unread);
+  seen.triangles += unread.triangles;
+  box.add(unread.box);
   if (counts != nullptr) *counts = seen;
   if (box.empty()) fail_empty(seen);
   return box;
@@ -202,7 +202,7 @@ void Scene::fail_empty(const SceneCounts& counts) const {
     const SceneFormat& format = detect_format(file);
     if (format.holds_only_points != nullptr && format.holds_only_points(file))
       why += "; " + base_name(path) +
-             " holds points alone: reconstruct a surface first, for example with CloudCompare";
+             " holds only points: reconstruct a surface first, for example with CloudCompare";
   }
   fail_input(config_.paths.front(), "the scene has no triangles to bake" + why);
 }

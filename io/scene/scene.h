@@ -9,7 +9,7 @@
 
 #include "io/affine.h"
 #include "io/dag/format.h"
-#include "io/scene/decoders/image_means.h"
+#include "io/scene/decoders/image.h"
 #include "io/scene/mesh/mesh_reader.h"
 #include "streaming/file/input_watch.h"
 
@@ -60,10 +60,10 @@ class Scene {
   Box bounds(SceneCounts* counts = nullptr) const;
 
   // Error (kBadInput): the scene has no triangles; with the patterns that matched nothing, and the
-  // files that hold points alone.
+  // files that hold only points.
   [[noreturn]] void fail_empty(const SceneCounts& counts) const;
 
-  // All files that determine the triangles: those of the scene, and the buffers that a .gltf names;
+  // All files that determine the triangles: the scene's files, and the buffers that a .gltf names;
   // with `colours`, the images of both, and the .mtl files that an .obj names.
   void visit_files(const std::function<void(const File&)>& visit) const;
   // Records the state of all these files. Call before the scene is read.
@@ -73,7 +73,7 @@ class Scene {
 
  private:
   SceneCounts read(const TriangleSink& sink, MeshBox* box_alone) const;
-  // The content of a scene file: that of `packed`, unpacked once if it is a gzip file.
+  // The content of a scene file: `packed` itself or, if it is a gzip file, unpacked once.
   const File& content_of(const File& packed) const;
 
   SceneConfig config_;

@@ -45,11 +45,6 @@ void visit_gltf_files(const File& content, MemoryBudget* budget, bool colours,
   for (const File& image : image_files(document)) visit(image);
 }
 
-#ifdef SVDAG_HAS_DRACO
-constexpr auto kReadDraco = read_draco;
-#else
-constexpr auto kReadDraco = nullptr;
-#endif
 #ifdef SVDAG_HAS_OPENMESH
 constexpr auto kReadOpenMesh = read_openmesh;
 #else
@@ -73,7 +68,7 @@ constexpr SceneFormat kFormats[] = {
     {"OFF", "off", true, nullptr, "OFF", read_off},
     {"glTF", "gltf", true, nullptr, "", read_gltf, "", visit_gltf_files},
     {"GLB", "glb", false, begins_as_glb, "", read_gltf, "", visit_gltf_files},
-    {"Draco", "drc", false, begins_as_draco, "", kReadDraco},
+    {"Draco", "drc", false, begins_as_draco, "", read_draco},
     {"OpenMesh", "om", false, nullptr, "", kReadOpenMesh},
     {"FBX", "fbx", false, begins_as_fbx, "", kReadFbx, kAsGlb},
     {"COLLADA", "dae", false, nullptr, "", kReadCollada, kAsGlb},
@@ -171,7 +166,7 @@ void read_scene_file(const SceneFormat& format, const File& file, const ReadOpti
   if (format.read == nullptr)
     fail_input(file.path(), std::string("is ") + format.name +
                                 ", which this build of svdag cannot read" + format.alternative);
-  format.read(file, options, sink);
+  read_meshes(format.read, file, options, sink);
 }
 
 std::vector<std::string> scene_endings() {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/scene/mesh/mesh_reader.h"
+#include "io/scene/polygons/mesh_writer.h"
 
 namespace svdag {
 
@@ -25,7 +25,7 @@ struct SceneFormat {
   bool (*begins)(std::string_view start, bool is_named_stl);
   std::string_view weak_start;  // decides for a file whose ending is unknown; empty: nothing does
   // Null: this build lacks the library.
-  void (*read)(const File&, const ReadOptions&, const TriangleSink&);
+  MeshReader read;
   const char* alternative = "";  // for builds that lack it: ": what to do"
   VisitBeside visit_beside = nullptr;
   bool (*holds_only_points)(const File&) = nullptr;

@@ -30,7 +30,7 @@ $ svdag import points.ply -o back.svdag
 ! svdag: points.ply: is a mesh or points without a grid: bake a mesh with svdag build; export voxels as .npz to import them
 ? 3
 $ svdag build points.ply -o back.svdag -r 64
-! svdag: points.ply: the scene has no triangles to bake; points.ply holds points alone: reconstruct a surface first, for example with CloudCompare
+! svdag: points.ply: the scene has no triangles to bake; points.ply holds only points: reconstruct a surface first, for example with CloudCompare
 ? 3
 
 ## import_full_disk

@@ -109,7 +109,7 @@ $ svdag build https://example.org/a.glb -r 64 -o r.svdag
 ? 3
 $ printf 'ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n' > points.ply
 $ svdag build points.ply -r 64 -o r.svdag
-! svdag: points.ply: the scene has no triangles to bake; points.ply holds points alone: reconstruct a surface first, for example with CloudCompare
+! svdag: points.ply: the scene has no triangles to bake; points.ply holds only points: reconstruct a surface first, for example with CloudCompare
 ? 3
 
 ## build_gltf_skin

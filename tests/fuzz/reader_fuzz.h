@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-#include "io/scene/mesh/mesh_reader.h"
+#include "io/scene/polygons/mesh_writer.h"
 #include "streaming/error.h"
 #include "tests/memory_file.h"
 
@@ -13,13 +13,13 @@ namespace svdag {
 constexpr uint64_t kReaderMemory = uint64_t(64) << 20;
 constexpr uint64_t kDecoderMemory = uint64_t(256) << 20;  // of formats that are decoded as a whole
 
-inline int fuzz_reader(void (*reader)(const File&, const ReadOptions&, const TriangleSink&),
-                       const uint8_t* data, size_t size, uint64_t limit = kReaderMemory) {
+inline int fuzz_reader(MeshReader reader, const uint8_t* data, size_t size,
+                       uint64_t limit = kReaderMemory) {
   const MemoryFile memory(std::as_bytes(std::span(data, size)));
   MemoryBudget budget(limit);
   const NameFilter names;
   try {
-    reader(memory.file(), {&names, false, &budget}, [](const TriangleBatch& batch) {
+    read_meshes(reader, memory.file(), {&names, false, &budget}, [](const TriangleBatch& batch) {
       if (batch.triangles.empty() || batch.triangles.size() > BatchWriter::kBatch) std::abort();
     });
   } catch (const Error& error) {

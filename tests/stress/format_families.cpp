@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "io/float_rounding.h"
-#include "io/scene/gltf/gltf_transform.h"
+#include "io/scene/gltf/gltf_nodes.h"
 #include "tests/stress/world.h"
 
 namespace svdag {

@@ -1,43 +1,53 @@
-// Decodes Draco meshes; only draco.cpp uses Google's Draco library.
+// Decodes Draco meshes in a limited child; only draco.cpp uses Google's Draco library.
 //
 // Positions that Draco stores as integers q are dequantised here, in double: min + q * step with
 // step = range / (2^bits - 1); Draco itself would round to float at each operation.
 //
 // Memory: an entropy-coded mesh may take less than a bit per triangle, so the counts in its header
-// cannot be checked against its bytes. The bound is kMaxFree + kMaxPerByte * bytes triangles,
-// points and attribute bytes (a real mesh has below 16 triangles per byte); memory for counts
-// within the bound is reserved in the budget before Draco allocates it.
+// cannot be checked against its bytes. max_draco_elements() is a bound (a real mesh has below 16
+// triangles per byte); the child gets the memory that so many need, or that the budget has left.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "io/triangle.h"
 #include "streaming/memory/memory_budget.h"
 
 namespace svdag {
 
-struct DracoMesh {
-  std::vector<Point> positions;
-  std::vector<uint32_t> indices;  // three per triangle, all below positions.size()
-  double step = 0;                // distance of the quantised positions, 0 if they are not
-  MemoryBudget::Reservation memory;
-};
-
 struct DracoSource {
   std::span<const std::byte> bytes;
-  std::string path;                          // for errors
   std::optional<uint64_t> position_id = {};  // unique id of the attribute; else the POSITION
   bool normalized = false;                   // integers that are not quantised: c / max
-  bool sandbox = false;                      // decode in a limited child process
+};
+
+// Receives the meshes one after the other: of each first all positions, then all triangles. The
+// first of several may begin twice.
+struct DracoReceiver {
+  // `source`: the number of the mesh. `step`: distance of the quantised positions, 0 if they are
+  // not.
+  std::function<void(size_t source, double step)> begin;
+  std::function<void(std::span<const Point>)> positions;
+  std::function<void(std::span<const uint32_t>)> indices;  // may be out of range
 };
 
 bool has_draco();
-// Broken data, a point cloud, or a mesh without 3D positions is an Error (kBadInput).
-DracoMesh decode_draco(const DracoSource& source, MemoryBudget* budget);
+
+// Max number of triangles and of points in so many bytes.
+constexpr uint64_t max_draco_elements(uint64_t bytes) {
+  return (uint64_t(1) << 18) + 1024 * bytes;
+}
+
+// Decodes the sources in order and returns how many were decoded, at least one. It may stop before
+// a source that cannot be decoded, which then is an Error where it comes first: broken data, a
+// point cloud, or a mesh without 3D positions (kBadInput), or too little memory (kMemory). `path`:
+// of the scene, for errors.
+size_t decode_draco(std::span<const DracoSource> sources, const std::string& path,
+                    const MemoryBudget& budget, bool sandbox, const DracoReceiver& receiver);
 
 }  // namespace svdag

@@ -13,7 +13,7 @@
 
 namespace svdag {
 
-// Whether the content begins as that of a gzip file.
+// Whether the file begins as a gzip file.
 bool is_gzip(const File& file);
 
 // The first bytes of the content, at most out.size(); returns their number. 0 for damaged data.

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <functional>
 #include <memory>
+#include <optional>
 
+#include "io/scene/decoders/limited_decoder.h"
 #include "streaming/error.h"
-#include "streaming/process/limited_child.h"
 
 // Without SIMD: the same texels on every machine.
 #define STB_IMAGE_IMPLEMENTATION
@@ -21,7 +21,7 @@
 namespace svdag {
 namespace {
 
-// The most that stb_image holds of a texel: an interlaced PNG with 16 bits a channel.
+// Max bytes that stb_image holds of a texel: an interlaced PNG with 16 bits a channel.
 constexpr uint64_t kBytesPerTexel = 28;
 constexpr uint64_t kBesideTexels = uint64_t(64) << 20;
 
@@ -82,22 +82,14 @@ ImageMean decode(const ImageSource& source) {
 
 // What work() returns in a limited child.
 template <class Result>
-Result in_child(const ImageSource& source, const ChildLimits& limits,
+Result in_child(const ImageSource& source, const DecoderLimits& limits,
                 const std::function<Result()>& work) {
-  Result result;
-  uint64_t received = 0;
-  run_limited(
-      limits, source.path,
-      [&](const BlockSink& send) {
-        const Result sent = work();
-        send(std::as_bytes(std::span(&sent, 1)));
-      },
-      [&](std::span<const std::byte> block) {
-        received += block.size();
-        if (block.size() == sizeof result) std::memcpy(&result, block.data(), sizeof result);
-      });
-  if (received != sizeof result) fail_input(source.path, "its decoder sent an invalid block");
-  return result;
+  std::optional<Result> result;
+  run_decoder(
+      limits, source.path, source.sandbox, [&](DecoderOutput& out) { out.send_one(0, work()); },
+      [&](const DecoderMessage& message) { result = message.record<Result>(); });
+  if (!result) fail_input(source.path, "its decoder sent nothing");
+  return *result;
 }
 
 }  // namespace
@@ -109,8 +101,8 @@ void check_image_bytes(uint64_t bytes, const std::string& path) {
 ImageMean mean_of_image(const ImageSource& source, MemoryBudget* budget) {
   check_image_bytes(source.bytes.size(), source.path);
   const uint64_t seconds = 30 + source.bytes.size() / 65536;
-  const ImageSize size = in_child<ImageSize>(source, {kBesideTexels, seconds, source.sandbox},
-                                             [&] { return size_of(source); });
+  const ImageSize size =
+      in_child<ImageSize>(source, {kBesideTexels, seconds}, [&] { return size_of(source); });
   const auto is_side = [](int n) { return n > 0 && uint64_t(n) <= kMaxImageSide; };
   if (!is_side(size.width) || !is_side(size.height))
     fail_input(source.path, "is an image of " + std::to_string(size.width) + " x " +
@@ -118,14 +110,43 @@ ImageMean mean_of_image(const ImageSource& source, MemoryBudget* budget) {
                                 std::to_string(kMaxImageSide) + " a side");
   const uint64_t bytes = kBytesPerTexel * size.texels() + 2 * source.bytes.size();
   const auto memory = budget->reserve(bytes, "texels of a texture");
-  const ImageMean mean = in_child<ImageMean>(
-      source, {kBesideTexels + bytes, seconds + (size.texels() >> 20), source.sandbox},
-      [&] { return decode(source); });
+  const ImageMean mean =
+      in_child<ImageMean>(source, {kBesideTexels + bytes, seconds + (size.texels() >> 20)},
+                          [&] { return decode(source); });
   for (const LinearColour& one : {mean.visible, mean.all}) {
     if (std::ranges::any_of(one.units, [](uint64_t units) { return units > kWhiteUnits; }))
       fail_input(source.path, "its decoder sent an invalid block");
   }
   return mean;
+}
+
+std::optional<ImageMean> ImageMeans::mean(const std::string& name, const Read& read) {
+  const auto [known, is_new] = means_.try_emplace(name);
+  if (!is_new) return known->second;
+  try {
+    MemoryBudget::Reservation memory;
+    const std::vector<std::byte> bytes = read(&memory);
+    known->second = mean_of_image({bytes, name, sandbox_}, budget_);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kBadInput) throw;
+    notes_.push_back(error.what());
+  }
+  return known->second;
+}
+
+std::optional<ImageMean> ImageMeans::mean_of_file(const std::string& path) {
+  return mean(path, [&](MemoryBudget::Reservation* memory) {
+    return bytes_of(File::open_read(path), memory);
+  });
+}
+
+std::vector<std::byte> ImageMeans::bytes_of(const File& file,
+                                            MemoryBudget::Reservation* memory) const {
+  check_image_bytes(file.size(), file.path());
+  *memory = budget_->reserve(file.size(), "textures");
+  std::vector<std::byte> bytes(size_t(file.size()));
+  file.read_at(0, bytes);
+  return bytes;
 }
 
 }  // namespace svdag

@@ -25,7 +25,8 @@ bool is_allowed(const MeshoptView& v) {
   return plain || v.filter == "EXPONENTIAL";
 }
 
-bool decode(const MeshoptView& v, std::span<const std::byte> bytes, std::vector<std::byte>* out) {
+bool decode_view(const MeshoptView& v, std::span<const std::byte> bytes,
+                 std::vector<std::byte>* out) {
   const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
   out->resize(size_t(v.bytes()));
   if (v.mode == "TRIANGLES")
@@ -54,19 +55,20 @@ void decode_meshopt(const MeshoptSource& source, const MeshoptView& view,
     fail_input(source.path, "has a compressed buffer view of " + std::to_string(view.count) +
                                 " elements, more than its data can hold");
   uint64_t received = 0;
-  run_limited(
-      decoder_limits(source.bytes.size(), budget, source.sandbox), source.path,
-      [&](const BlockSink& send) {
+  run_decoder(
+      decoder_limits(source.bytes.size(), budget), source.path, source.sandbox,
+      [&](DecoderOutput& decoder) {
         std::vector<std::byte> decoded;
-        if (!decode(view, source.bytes, &decoded))
+        if (!decode_view(view, source.bytes, &decoded))
           fail_input(source.path, "has broken EXT_meshopt_compression data");
-        send(decoded);
+        decoder.send(0, std::span<const std::byte>(decoded));
       },
-      [&](std::span<const std::byte> block) {
-        received += block.size();
-        if (received <= view.bytes()) out(block);
+      [&](const DecoderMessage& message) {
+        received += message.bytes().size();
+        if (received > view.bytes()) message.fail();
+        out(message.bytes());
       });
-  if (received != view.bytes()) fail_input(source.path, "its decoder sent an invalid block");
+  if (received != view.bytes()) fail_input(source.path, "its decoder sent too little");
 }
 
 }  // namespace svdag

@@ -22,6 +22,8 @@ uint64_t component_bytes(ComponentType type) {
     case ComponentType::kUnsignedInt:
     case ComponentType::kFloat:
       return 4;
+    case ComponentType::kDouble:
+      return 8;
   }
   return 0;
 }
@@ -42,9 +44,9 @@ uint32_t component_count(const std::string& type) {
 }
 
 ComponentType component_type(const JsonObject& object) {
-  const uint64_t code = object.count("componentType");
+  const uint64_t code = object.whole_number("componentType");
   const auto type = ComponentType(uint32_t(std::min<uint64_t>(code, UINT32_MAX)));
-  if (component_bytes(type) == 0) {
+  if (component_bytes(type) == 0 || type == ComponentType::kDouble) {
     fail_input(object.path(),
                "has an accessor of the unknown component type " + std::to_string(code));
   }
@@ -119,7 +121,7 @@ std::vector<File> GltfBuffers::files() const {
 const Blob& GltfBuffers::blob(uint64_t index) {
   const auto known = blobs_.find(index);
   if (known != blobs_.end()) return known->second;
-  const uint64_t length = document_.element("buffers", index).count("byteLength");
+  const uint64_t length = document_.element("buffers", index).whole_number("byteLength");
   Blob blob = open(index);
   if (length > blob.size()) {
     fail_input(document_.file->path(), "has buffers[" + std::to_string(index) + "] of " +
@@ -130,8 +132,8 @@ const Blob& GltfBuffers::blob(uint64_t index) {
 }
 
 GltfBuffers::View GltfBuffers::unpacked_view(uint64_t index, const JsonObject& meshopt) {
-  const MeshoptView shape = {meshopt.text("mode"), meshopt.text("filter"), meshopt.count("count"),
-                             meshopt.count("byteStride")};
+  const MeshoptView shape = {meshopt.text("mode"), meshopt.text("filter"),
+                             meshopt.whole_number("count"), meshopt.whole_number("byteStride")};
   auto known = unpacked_.find(index);
   if (known == unpacked_.end()) {
     MemoryBudget::Reservation memory;
@@ -156,9 +158,9 @@ GltfBuffers::View GltfBuffers::view(uint64_t index) {
 }
 
 GltfBuffers::View GltfBuffers::view_of(const JsonObject& object, uint64_t index) {
-  const Blob& data = blob(object.count("buffer"));
-  const View view{&data, object.count("byteOffset", 0), object.count("byteLength"),
-                  object.count("byteStride", 0)};
+  const Blob& data = blob(object.whole_number("buffer"));
+  const View view{&data, object.whole_number("byteOffset", 0), object.whole_number("byteLength"),
+                  object.whole_number("byteStride", 0)};
   if (view.begin > data.size() || view.size > data.size() - view.begin) {
     fail_input(object.path(), "has bufferViews[" + std::to_string(index) + "] outside its buffer");
   }
@@ -192,14 +194,14 @@ Accessor GltfBuffers::accessor(uint64_t index, const std::string& type) {
   }
   Accessor accessor;
   accessor.path = &document_.file->path();
-  accessor.base.count = object.count("count");
+  accessor.base.count = object.whole_number("count");
   accessor.base.type = component_type(object);
   accessor.base.components = component_count(own_type);
   if (accessor.base.components == 0)
     fail_input(object.path(), "has accessors[" + std::to_string(index) + "] of an unknown type");
   accessor.base.normalized = object.flag("normalized");
   if (object.has("bufferView")) {
-    place(&accessor.base, object.count("bufferView"), object.count("byteOffset", 0));
+    place(&accessor.base, object.whole_number("bufferView"), object.whole_number("byteOffset", 0));
   } else if (accessor.base.count > kMaxImplicit) {
     fail_input(object.path(), "has accessors[" + std::to_string(index) + "] of " +
                                   std::to_string(accessor.base.count) + " elements without data");
@@ -209,12 +211,14 @@ Accessor GltfBuffers::accessor(uint64_t index, const std::string& type) {
   const JsonObject indices = sparse.object("indices");
   const JsonObject values = sparse.object("values");
   accessor.sparse_values = accessor.base;
-  accessor.sparse_values.count = sparse.count("count");
-  place(&accessor.sparse_values, values.count("bufferView"), values.count("byteOffset", 0));
+  accessor.sparse_values.count = sparse.whole_number("count");
+  place(&accessor.sparse_values, values.whole_number("bufferView"),
+        values.whole_number("byteOffset", 0));
   accessor.sparse_indices.emplace();
-  accessor.sparse_indices->count = sparse.count("count");
+  accessor.sparse_indices->count = sparse.whole_number("count");
   accessor.sparse_indices->type = component_type(indices);
-  place(&*accessor.sparse_indices, indices.count("bufferView"), indices.count("byteOffset", 0));
+  place(&*accessor.sparse_indices, indices.whole_number("bufferView"),
+        indices.whole_number("byteOffset", 0));
   return accessor;
 }
 

@@ -47,7 +47,8 @@ enum class ComponentType : uint32_t {
   kShort = 5122,
   kUnsignedShort = 5123,
   kUnsignedInt = 5125,
-  kFloat = 5126
+  kFloat = 5126,
+  kDouble = 5130  // of decoded data only: glTF does not have it
 };
 
 // Elements at begin, begin + stride, ... of `blob`, or zeros without a blob.

@@ -103,7 +103,7 @@ void JsonObject::fail(const char* key, const char* expected) const {
   fail_input(*path_, "has broken glTF JSON: \"" + std::string(key) + "\"" + is);
 }
 
-uint64_t JsonObject::count(const char* key, std::optional<uint64_t> fallback) const {
+uint64_t JsonObject::whole_number(const char* key, std::optional<uint64_t> fallback) const {
   const json* value = find(key);
   if (value == nullptr && fallback) return *fallback;
   if (value == nullptr || !value->is_number_unsigned()) fail(key, "a whole number");

@@ -27,7 +27,7 @@ class JsonObject {
   bool has(const char* key) const { return find(key) != nullptr; }
   std::vector<std::string> names() const;  // of all members, in alphabetical order
   // A whole number; without it `fallback`, and without that an Error.
-  uint64_t count(const char* key, std::optional<uint64_t> fallback = {}) const;
+  uint64_t whole_number(const char* key, std::optional<uint64_t> fallback = {}) const;
   bool flag(const char* key) const;                // false if absent
   const std::string& text(const char* key) const;  // "" if absent
   JsonObject object(const char* key) const;        // an Error if absent

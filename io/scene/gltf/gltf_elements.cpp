@@ -57,7 +57,7 @@ ElementStream::ElementStream(const Accessor& accessor)
   next_replacement();
 }
 
-// Makes the elements from position_ on visible, as many as the window holds.
+// Fills the window with the elements from position_ on.
 void ElementStream::refill() {
   const uint64_t left = array_.count - position_;
   const uint64_t fit = std::max<uint64_t>(1, kWindow / array_.stride);
@@ -88,6 +88,9 @@ void ElementStream::decode(size_t n, T* out) {
     case ComponentType::kFloat:
       // Never an index: readers of uint32 have rejected it before.
       if constexpr (std::is_same_v<T, double>) convert_all<float>(array_, in, n, out);
+      return;
+    case ComponentType::kDouble:
+      if constexpr (std::is_same_v<T, double>) convert_all<double>(array_, in, n, out);
   }
 }
 

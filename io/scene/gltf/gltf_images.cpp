@@ -19,9 +19,9 @@ std::vector<File> image_files(const GltfDocument& document) {
 }
 
 std::optional<ImageMean> mean_of_texture(const GltfDocument& document, const JsonObject& info,
-                                            GltfBuffers* buffers, ImageMeans* means) {
+                                         GltfBuffers* buffers, ImageMeans* means) {
   const std::string& path = document.file->path();
-  const uint64_t number = info.count("index");
+  const uint64_t number = info.whole_number("index");
   const auto textures = document.root().array("textures");
   if (number >= textures.size() || !JsonObject(textures[number], path).has("source")) {
     const std::string name = path + ": textures[" + std::to_string(number) + "]";
@@ -29,12 +29,12 @@ std::optional<ImageMean> mean_of_texture(const GltfDocument& document, const Jso
       fail_input(name, "has no PNG or JPEG image");  // one of an extension, perhaps
     });
   }
-  const uint64_t index = JsonObject(textures[number], path).count("source");
+  const uint64_t index = JsonObject(textures[number], path).whole_number("source");
   const std::string name = path + ": images[" + std::to_string(index) + "]";
   return means->mean(name, [&](MemoryBudget::Reservation* memory) {
     const JsonObject image = document.element("images", index);
     const std::string& uri = image.text("uri");
-    if (uri.empty()) return buffers->view_bytes(image.count("bufferView"), memory);
+    if (uri.empty()) return buffers->view_bytes(image.whole_number("bufferView"), memory);
     if (!is_data_uri(uri)) return means->bytes_of(open_beside(path, uri, "image"), memory);
     *memory = means->budget()->reserve(uri.size(), "textures");
     return decode_data_uri(uri, path);

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "io/scene/decoders/image_means.h"
+#include "io/scene/decoders/image.h"
 #include "io/scene/gltf/gltf_buffers.h"
 #include "io/scene/gltf/gltf_document.h"
 

@@ -9,10 +9,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
-#include "io/scene/gltf/gltf_buffers.h"
+#include "io/scene/gltf/gltf_elements.h"
 #include "io/triangle.h"
 #include "streaming/memory/memory_budget.h"
 
@@ -31,12 +32,12 @@ class KeptPrimitives {
 
   // The primitive that this JSON value describes, or null if it is not cached.
   const KeptPrimitive* find(const nlohmann::json& primitive) const {
-    const auto found = met_.find(&primitive);
-    return found == met_.end() || found->second.indices.empty() ? nullptr : &found->second;
+    const auto found = seen_.find(&primitive);
+    return found == seen_.end() || found->second.indices.empty() ? nullptr : &found->second;
   }
   // Called at every reference to a primitive: caches it now, or returns null.
-  const KeptPrimitive* meet(const nlohmann::json& primitive, const Accessor& positions,
-                            const Accessor& indices);
+  const KeptPrimitive* keep_repeated(const nlohmann::json& primitive, const Accessor& positions,
+                                     const Accessor& indices);
 
  private:
   static constexpr const char* kPurpose = "repeated glTF meshes";
@@ -44,7 +45,25 @@ class KeptPrimitives {
 
   uint64_t room_;
   MemoryBudget::Reservation memory_;
-  std::unordered_map<const nlohmann::json*, KeptPrimitive> met_;
+  std::unordered_map<const nlohmann::json*, KeptPrimitive> seen_;
 };
+
+inline const KeptPrimitive* KeptPrimitives::keep_repeated(const nlohmann::json& primitive,
+                                                          const Accessor& positions,
+                                                          const Accessor& indices) {
+  // Both counts first: they are of the file, their bytes could overflow.
+  if (positions.count() > kMaxBytes || indices.count() > kMaxBytes) return nullptr;
+  const uint64_t bytes = positions.count() * sizeof(Point) + indices.count() * sizeof(uint32_t);
+  if (bytes > kMaxBytes || memory_.bytes() + bytes > room_) return nullptr;
+  const auto [found, first] = seen_.try_emplace(&primitive);
+  if (first || indices.count() == 0) return nullptr;
+  memory_.resize(memory_.bytes() + bytes, kPurpose);
+  KeptPrimitive& kept = found->second;
+  kept.points.resize(size_t(positions.count()));
+  ElementStream(positions).read(as_numbers(kept.points));
+  kept.indices.resize(size_t(indices.count()));
+  ElementStream(indices).read(std::span<uint32_t>(kept.indices));
+  return &kept;
+}
 
 }  // namespace svdag

@@ -97,7 +97,7 @@ class Walk {
   std::string name_of_node(const JsonObject& node) const {
     const std::string& name = node.text("name");
     if (!name.empty() || !node.has("mesh")) return name;
-    return document_.element("meshes", node.count("mesh")).text("name");
+    return document_.element("meshes", node.whole_number("mesh")).text("name");
   }
 
   [[noreturn]] void fail(uint64_t index, const char* what) const {
@@ -113,12 +113,29 @@ class Walk {
 
 }  // namespace
 
+Affine Trs::affine() const {
+  const auto [x, y, z, w] = rotation;
+  const double n = ((x * x + y * y) + z * z) + w * w;
+  Affine a;
+  a.m[0] = {(((w * w + x * x) - y * y) - z * z) / n, (2 * (x * y - w * z)) / n,
+            (2 * (x * z + w * y)) / n, 0};
+  a.m[1] = {(2 * (x * y + w * z)) / n, (((w * w + y * y) - z * z) - x * x) / n,
+            (2 * (y * z - w * x)) / n, 0};
+  a.m[2] = {(2 * (x * z - w * y)) / n, (2 * (y * z + w * x)) / n,
+            (((w * w + z * z) - x * x) - y * y) / n, 0};
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) a.m[r][c] *= scale[c];
+    a.m[r][3] = translation[r];
+  }
+  return a;
+}
+
 void visit_nodes(const GltfDocument& document, const ReadOptions& options,
                  const NodeVisitor& visit) {
   const JsonObject root = document.root();
   Walk walk(document, options, visit);
   if (root.array("scenes").empty()) return walk.all_roots();
-  walk.scene(root.count("scene", 0));
+  walk.scene(root.whole_number("scene", 0));
 }
 
 InstanceStream::InstanceStream(const JsonObject& node, const Affine& world, GltfBuffers* buffers)
@@ -131,7 +148,7 @@ InstanceStream::InstanceStream(const JsonObject& node, const Affine& world, Gltf
   bool counted = false;
   for (const std::string& name : attributes.names()) {
     const bool vector = name == "TRANSLATION" || name == "SCALE";
-    const Accessor accessor = buffers->accessor(attributes.count(name.c_str()),
+    const Accessor accessor = buffers->accessor(attributes.whole_number(name.c_str()),
                                                 vector               ? "VEC3"
                                                 : name == "ROTATION" ? "VEC4"
                                                                      : GltfBuffers::kAnyType);

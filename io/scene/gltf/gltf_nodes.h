@@ -1,16 +1,31 @@
 // The node hierarchy of a glTF file: which nodes are drawn, and where.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 
+#include "io/affine.h"
 #include "io/scene/gltf/gltf_buffers.h"
 #include "io/scene/gltf/gltf_document.h"
 #include "io/scene/gltf/gltf_elements.h"
-#include "io/scene/gltf/gltf_transform.h"
 #include "io/scene/mesh/mesh_reader.h"
 
 namespace svdag {
+
+// Scale, then rotation (a quaternion x, y, z, w of any non-zero length), then translation; in a
+// fixed order of operations, as in io/affine.h:
+//   rotation     of (x, y, z, w) with n = ((x*x + y*y) + z*z) + w*w:
+//                diagonal (((w*w + x*x) - y*y) - z*z) / n, cyclic; others (2 * (x*y - w*z)) / n ...
+// Dividing by n normalises the quaternion inside the products, so that quarter turns come out as
+// exact zeros and ones. Rejected: dividing by sqrt(n) first, which leaves 2e-16 there.
+struct Trs {
+  std::array<double, 3> translation{0, 0, 0};
+  std::array<double, 4> rotation{0, 0, 0, 1};
+  std::array<double, 3> scale{1, 1, 1};
+
+  Affine affine() const;
+};
 
 using NodeVisitor = std::function<void(const JsonObject& node, const std::string& name,
                                        const Affine& world, bool included)>;
@@ -23,9 +38,9 @@ using NodeVisitor = std::function<void(const JsonObject& node, const std::string
 void visit_nodes(const GltfDocument& document, const ReadOptions& options,
                  const NodeVisitor& visit);
 
-// The instances of one node: itself, or those of EXT_mesh_gpu_instancing, as many as each of its
-// attributes has elements, including application-specific ones (_ID). Missing attributes
-// (TRANSLATION, ROTATION, SCALE) are the identity.
+// The instances of one node: itself, or those of EXT_mesh_gpu_instancing. Each of its
+// attributes, including application-specific ones (_ID), has an element for each instance. Missing
+// attributes (TRANSLATION, ROTATION, SCALE) are the identity.
 class InstanceStream {
  public:
   InstanceStream(const JsonObject& node, const Affine& world, GltfBuffers* buffers);

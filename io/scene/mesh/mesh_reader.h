@@ -1,6 +1,7 @@
 // The interface of all scene formats: triangles in world space, in batches.
 //
-// One function per format, one file per function. Readers of ours stream: they hold at most the
+// One function per format, one file per function. A reader passes vertices and polygons in the
+// order of the file to a MeshWriter (io/scene/polygons/mesh_writer.h), which holds at most the
 // vertex positions of one mesh (reserved in `budget`), never the faces; positions beyond their
 // share of the memory go to a spill file if there is one (io/scene/mesh/positions.h). A reader
 // checks every count against the remaining bytes before it allocates, and reports a damaged file as
@@ -48,8 +49,7 @@ using TriangleSink = std::function<void(const TriangleBatch&)>;
 class ImageMeans;
 class SpillFile;
 
-// Spill space for the vertex positions of a mesh that do not fit in memory. STL needs none; Draco
-// and OpenMesh are decoded in memory and ignore it.
+// Spill space for the vertex positions of a mesh that do not fit in memory. STL needs none.
 struct SpillSpace {
   // Bytes of the budget that the reader takes for positions: at least 16 blocks of the file. With
   // blocks of b bytes a mesh may have share^2 / 8b bytes of positions (12 or 24 a vertex) at least.
@@ -90,20 +90,22 @@ struct ReadOptions {
   }
 };
 
-void read_ply(const File& file, const ReadOptions& options, const TriangleSink& sink);
-void read_stl(const File& file, const ReadOptions& options, const TriangleSink& sink);
-void read_obj(const File& file, const ReadOptions& options, const TriangleSink& sink);
-void read_off(const File& file, const ReadOptions& options, const TriangleSink& sink);
-void read_gltf(const File& file, const ReadOptions& options, const TriangleSink& sink);  // and GLB
-void read_draco(const File& file, const ReadOptions& options, const TriangleSink& sink);
-void read_openmesh(const File& file, const ReadOptions& options, const TriangleSink& sink);  // .om
-// With Assimp.
-void read_fbx(const File& file, const ReadOptions& options, const TriangleSink& sink);
-void read_collada(const File& file, const ReadOptions& options, const TriangleSink& sink);
-void read_3mf(const File& file, const ReadOptions& options, const TriangleSink& sink);
-void read_3ds(const File& file, const ReadOptions& options, const TriangleSink& sink);
+class MeshWriter;  // io/scene/polygons/mesh_writer.h
 
-// Collects triangles and passes them on in batches of up to kBatch; used by all readers.
+void read_ply(const File& file, const ReadOptions& options, MeshWriter* out);
+void read_stl(const File& file, const ReadOptions& options, MeshWriter* out);
+void read_obj(const File& file, const ReadOptions& options, MeshWriter* out);
+void read_off(const File& file, const ReadOptions& options, MeshWriter* out);
+void read_gltf(const File& file, const ReadOptions& options, MeshWriter* out);  // and GLB
+void read_draco(const File& file, const ReadOptions& options, MeshWriter* out);
+void read_openmesh(const File& file, const ReadOptions& options, MeshWriter* out);  // .om
+// With Assimp.
+void read_fbx(const File& file, const ReadOptions& options, MeshWriter* out);
+void read_collada(const File& file, const ReadOptions& options, MeshWriter* out);
+void read_3mf(const File& file, const ReadOptions& options, MeshWriter* out);
+void read_3ds(const File& file, const ReadOptions& options, MeshWriter* out);
+
+// Collects triangles and passes them on in batches of up to kBatch.
 class BatchWriter {
  public:
   static constexpr size_t kBatch = 4096;

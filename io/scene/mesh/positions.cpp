@@ -9,8 +9,8 @@ namespace svdag {
 
 void Positions::grow() {
   if (spilled()) return hand_over();
-  SVDAG_ASSERT(size_ < most_);
-  const uint64_t chunk = std::bit_ceil(std::min(kChunk, most_));
+  SVDAG_ASSERT(size_ < max_count_);
+  const uint64_t chunk = std::bit_ceil(std::min(kChunk, max_count_));
   const uint64_t bytes = reservation_.bytes() + bytes_of(chunk);
   const SpillSpace* space = options_.spill;
   // An eighth of the share is reserved for the blocks being written.

@@ -5,7 +5,7 @@
 // larger than the reader's upper bound: small meshes take little. Positions that the file
 // stores as float are kept as float: half the memory, the same values. Positions beyond the share
 // that a SpillSpace grants move to a spill file, all of them, and corners get theirs by a join
-// (io/scene/mesh/corners.h).
+// (io/scene/polygons/mesh_writer.h).
 // Rejected: std::vector (twice the memory while it grows, or trust in the header's count).
 #pragma once
 
@@ -24,14 +24,16 @@ class Positions {
  public:
   enum class Precision { kSingle, kDouble };
 
-  // `most`: upper bound on the number of positions; exceeding it is a defect of the reader.
-  Positions(const ReadOptions& options, Precision precision, uint64_t most)
+  // More than `max_count` positions are a defect of the reader.
+  Positions(const ReadOptions& options, Precision precision, uint64_t max_count)
       : single_(precision == Precision::kSingle),
         options_(options),
-        most_(most),
+        max_count_(max_count),
         reservation_(options.budget->reserve(0, kPurpose)) {}
 
   uint64_t size() const { return size_; }
+  // Reserved for positions in memory.
+  uint64_t bytes() const { return reservation_.bytes(); }
 
   void add(const Point& p) {
     if ((size_ & chunk_mask_) == 0) grow();
@@ -53,7 +55,6 @@ class Positions {
   VertexWindows& windows() { return *windows_; }
   // Spilled, and all were added: all positions are in the windows.
   void hand_over() { hand_over(0, size_ - windows_->size()); }
-  const ReadOptions& options() const { return options_; }
 
  private:
   static constexpr uint64_t kChunk = 1 << 15;
@@ -80,7 +81,7 @@ class Positions {
 
   bool single_;
   const ReadOptions& options_;
-  uint64_t most_;
+  uint64_t max_count_;
   uint64_t size_ = 0;
   uint64_t chunk_mask_ = 0;  // of the chunk that is filled: its size less one
   MemoryBudget::Reservation reservation_;

@@ -1,7 +1,7 @@
 // The box of the vertices that triangles use, without a join: a bit per vertex, then one pass over
 // the positions.
 //
-// Returns a box only if it certainly equals that of the triangles. Otherwise the join is needed:
+// Returns a box only if it certainly equals the box of the triangles. Otherwise the join is needed:
 // the marks do not fit in memory, a coordinate is NaN or infinite, or zeros of both signs are on
 // one face of the box (the triangles' order decides which of them is kept).
 #pragma once

@@ -43,7 +43,8 @@ VertexWindows::VertexWindows(const SpillSpace& space, MemoryBudget* budget, bool
   // References are 32 bits.
   const uint64_t fit = (space.share - 2 * stream_bytes) / position_bytes_;
   shift_ = std::min(int(std::bit_width(fit)) - 1, 32);
-  max_windows_ = space.share / stream_bytes - 1;  // one stream for the positions
+  max_windows_ =
+      space.share / stream_bytes - 2;  // one for positions, one for what the caller keeps
 }
 
 void VertexWindows::add(std::span<const std::byte> positions) {

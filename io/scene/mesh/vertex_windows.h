@@ -3,13 +3,13 @@
 //
 // A window is a run of consecutive vertices that fits in memory.
 //   add      the positions go to one stream per window as they are read
-//   record   the face loop requests corners without receiving them: the index of each within its
-//            window is appended to the references of the window
+//   record   corners are requested without receiving them: the index of each within its window is
+//            appended to the references of the window
 //   join     per window: its positions in memory, its references one by one, the position of each
 //            appended to the answers of the window
-//   next     the face loop runs again: each corner takes the next answer of its window
-// Only the face loop needs the order of the corners, so nothing is sorted and no index of a corner
-// is stored. Rejected: mapping the positions (random reads of a disk), sorting by vertex and
+//   next     each corner, in the order of the recording, takes the next answer of its window
+// The caller keeps the window of each corner, so nothing is sorted and no index of a corner is
+// stored. Rejected: mapping the positions (random reads of a disk), sorting by vertex and
 // back by corner (the same bytes three times).
 #pragma once
 
@@ -65,11 +65,13 @@ class VertexWindows {
 
   // Appends whole positions.
   void add(std::span<const std::byte> positions);
-  void record(uint64_t i) {
+  // Returns the window.
+  uint64_t record(uint64_t i) {
     const uint64_t w = i >> shift_;
     if (w >= references_.size() || !references_[w]) open_references(w);
     const uint32_t local = uint32_t(i & (window() - 1));
     references_[w]->append(std::as_bytes(std::span(&local, 1)));
+    return w;
   }
   // Every position was added: calls use(i, position) for each, in order.
   template <class Use>
@@ -86,9 +88,9 @@ class VertexWindows {
   void join();
   // Restarts at the first recorded corner.
   void rewind();
-  // Position `i`; calls must be in the recorded order.
-  Point next(uint64_t i) {
-    const uint64_t w = i >> shift_;
+  // The position of the next corner that was recorded in window `w`.
+  Point next(uint64_t w) {
+    if (w >= replay_.size()) fail_changed();
     return next_of(replay_[w], answers_[w]);
   }
 

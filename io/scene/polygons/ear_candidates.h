@@ -1,7 +1,7 @@
 // The corners of a polygon that may be ears: not tested since the ring last changed around them.
 //
 // A corner that is not an ear because another one is in its triangle waits until that one is
-// removed. Nothing else can make it an ear, so the result equals that of testing all.
+// removed. Nothing else can make it an ear, so the result is the same as if all were tested.
 // Rejected: testing every corner after each ear, which is quadratic where ears are rare.
 #pragma once
 

@@ -28,8 +28,8 @@
 #include <utility>
 #include <vector>
 
-#include "io/scene/mesh/corner_tree.h"
 #include "io/scene/mesh/mesh_reader.h"
+#include "io/scene/polygons/corner_tree.h"
 #include "io/scene/polygons/ear_candidates.h"
 
 namespace svdag {

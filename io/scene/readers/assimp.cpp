@@ -3,15 +3,15 @@
 // Assimp holds the whole scene, so these formats are not streamed. It
 // parses untrusted bytes, so it always runs in a process of its own; under --sandbox, one that can
 // only compute. Its positions are floats; the transforms of nodes are composed here, in double.
-// Polygons are triangulated here as those of all formats: Assimp's own triangulation may drop some.
+// Polygons are passed on as they are: Assimp's own triangulation may drop some.
 //
 // Files that name their vertical axis are turned so that y is up: COLLADA and 3DS by Assimp, FBX
 // here. COLLADA comes in metres, the others in the units of the file.
 //
 // The colour of a material is its base or diffuse colour, which is sRGB; its textures are not read.
 //
-// The child sends blocks: a tag, then a header (MeshHead, the material, the names of the nodes from
-// the root on, separated by zero bytes) or the triangles that belong to the last header.
+// The child sends of each mesh: a MeshHead; the material and the names of the nodes from the root
+// on, separated by zero bytes; its vertices and polygons.
 #include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/scene.h>
@@ -22,24 +22,24 @@
 #include <string_view>
 
 #include "io/affine.h"
-#include "io/scene/decoders/limited_decoder.h"
-#include "io/scene/mesh/mesh_reader.h"
-#include "io/scene/polygons/triangulate.h"
+#include "io/scene/readers/decoded_mesh.h"
 #include "streaming/error.h"
 
 namespace svdag {
 namespace {
 
-enum class Tag : unsigned char { kHeader, kTriangles };
+// Messages of the child.
+enum AssimpMessage : uint64_t { kMeshHead = kOtherMessage, kMeshNames };
 
-// The first bytes of a header.
 struct MeshHead {
   uint8_t undeformed = 0;
   uint8_t has_colour = 0;
+  uint8_t is_mirrored = 0;
   Colour colour;
+  uint64_t vertices = 0;
 };
 
-constexpr int kMaxDepth = 512;  // of nodes; the walk recurses
+constexpr int kMaxNodeDepth = 512;  // of nodes; the walk recurses
 
 Affine affine_of(const aiMatrix4x4& m) {
   Affine affine;
@@ -49,9 +49,9 @@ Affine affine_of(const aiMatrix4x4& m) {
   return affine;
 }
 
-// The base or diffuse colour. A material with a texture has none, since a factor without the mean
-// is meaningless. The grey that Assimp gives to materials of COLLADA and 3DS without a colour is
-// none.
+// The base or diffuse colour. A material with a texture has no colour, since a factor without the
+// mean is meaningless; nor has one with the grey that Assimp gives to materials of COLLADA and 3DS
+// without a colour.
 std::optional<Colour> colour_of(const aiMaterial& material) {
   constexpr float kAssimpsGrey = 0.6F;
   for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {
@@ -68,12 +68,12 @@ std::optional<Colour> colour_of(const aiMaterial& material) {
 // Sends the meshes of a scene, node by node.
 class Sender {
  public:
-  Sender(const File& file, const aiScene& scene, const BlockSink& send)
-      : file_(file), scene_(scene), send_(send) {}
+  Sender(const File& file, const aiScene& scene, DecoderOutput* out)
+      : file_(file), scene_(scene), out_(*out) {}
 
   void send_node(const aiNode& node, const Affine& parent, const std::string& parent_names,
                  int depth) {
-    if (depth > kMaxDepth) fail_input(file_.path(), "has nodes nested too deeply");
+    if (depth > kMaxNodeDepth) fail_input(file_.path(), "has nodes nested too deeply");
     const Affine to_world = compose(parent, affine_of(node.mTransformation));
     const std::string names = parent_names + '\0' + node.mName.C_Str();
     for (unsigned i = 0; i < node.mNumMeshes; ++i)
@@ -95,43 +95,30 @@ class Sender {
       colour.reset();
     }
     const bool undeformed = mesh.mNumBones > 0 || mesh.mNumAnimMeshes > 0;
-    const MeshHead head{undeformed, colour.has_value(), colour.value_or(Colour())};
-    block_.assign(1, char(Tag::kHeader));
-    block_.append(reinterpret_cast<const char*>(&head), sizeof head);
-    block_ += material + names;
-    flush();
-
-    const TriangleSink sink = [&](const TriangleBatch& batch) { send_triangles(batch.triangles); };
-    BatchWriter out(sink);
-    out.mirrored(is_mirror(to_world));
-    MemoryBudget without_limit;  // the process of its own has one
-    Triangulator polygon(&without_limit, file_.path());
+    const MeshHead head{undeformed, colour.has_value(), is_mirror(to_world),
+                        colour.value_or(Colour()), mesh.mNumVertices};
+    out_.send_one(kMeshHead, head);
+    out_.send_text(kMeshNames, material + names);
+    DecodedMeshSender out(&out_);
+    for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+      const aiVector3D& p = mesh.mVertices[v];
+      out.vertex(to_world({double(p.x), double(p.y), double(p.z)}));
+    }
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const aiFace& face = mesh.mFaces[f];
       if (face.mNumIndices < 3) continue;  // a point or a line
       for (unsigned k = 0; k < face.mNumIndices; ++k) {
         if (face.mIndices[k] >= mesh.mNumVertices)
           fail_input(file_.path(), "has a face with a corner that does not exist");
-        const aiVector3D& p = mesh.mVertices[face.mIndices[k]];
-        polygon.corner(to_world({double(p.x), double(p.y), double(p.z)}));
       }
-      polygon.finish(out);
+      out.polygon({face.mIndices, face.mNumIndices});
     }
-    out.flush();
+    out.finish();
   }
-
-  void send_triangles(std::span<const Triangle> triangles) {
-    block_.assign(1, char(Tag::kTriangles));
-    block_.append(reinterpret_cast<const char*>(triangles.data()), triangles.size_bytes());
-    flush();
-  }
-
-  void flush() { send_(std::as_bytes(std::span(block_))); }
 
   const File& file_;
   const aiScene& scene_;
-  const BlockSink& send_;
-  std::string block_;
+  DecoderOutput& out_;
 };
 
 // FBX stores the number of its vertical axis, and its sign.
@@ -148,8 +135,8 @@ struct AssimpFormat {
   const char* hint;  // Assimp chooses its reader by it
 };
 
-void decode(const File& file, std::span<const std::byte> bytes, const AssimpFormat& format,
-            const BlockSink& send) {
+void decode_scene(const File& file, std::span<const std::byte> bytes, const AssimpFormat& format,
+                  DecoderOutput* out) {
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
   const aiScene* scene = nullptr;
@@ -164,30 +151,28 @@ void decode(const File& file, std::span<const std::byte> bytes, const AssimpForm
   if (why.find("bad_alloc") != why.npos) throw std::bad_alloc();
   if (scene == nullptr || scene->mRootNode == nullptr)
     fail_input(file.path(), "is not a valid " + format.name + " file: " + why);
-  Sender(file, *scene, send).send_node(*scene->mRootNode, up_axis_to_y(*scene), {}, 0);
+  Sender(file, *scene, out).send_node(*scene->mRootNode, up_axis_to_y(*scene), {}, 0);
 }
 
-// Passes on the triangles of a child, by the names of its headers.
+// Passes on the meshes of a child, by the names of their headers.
 class Receiver {
  public:
-  Receiver(const File& file, const ReadOptions& options, const TriangleSink& sink)
-      : file_(file), options_(options), out_(sink) {}
+  Receiver(const ReadOptions& options, MeshWriter* out)
+      : options_(options), out_(*out), mesh_(out) {}
 
-  void take(std::span<const std::byte> block) {
-    if (block.empty()) fail();
-    const Tag tag = Tag(block[0]);
-    block = block.subspan(1);
-    tag == Tag::kHeader ? take_header(block) : take_triangles(block);
+  void take(const DecoderMessage& message) {
+    if (message.kind() == kMeshHead) {
+      head_ = message.record<MeshHead>();
+      wanted_ = false;
+    } else if (message.kind() == kMeshNames) {
+      take_names(message.text());
+    } else if (wanted_) {
+      mesh_.receive(message);
+    }
   }
-  void finish() { out_.flush(); }
 
  private:
-  void take_header(std::span<const std::byte> block) {
-    MeshHead head;
-    if (block.size() <= sizeof head) fail();
-    std::memcpy(&head, block.data(), sizeof head);
-    block = block.subspan(sizeof head);
-    const std::string_view text(reinterpret_cast<const char*>(block.data()), block.size());
+  void take_names(std::string_view text) {
     const std::string material(text.substr(0, text.find('\0')));
     const NameFilter& filter = *options_.names;
     // All are called in any case: they record which patterns match.
@@ -200,49 +185,45 @@ class Receiver {
       excluded |= filter.excludes(PartKind::kObject, name);
     }
     wanted_ = included && !excluded;
-    out_.mesh(name, head.undeformed != 0);
-    out_.material(material, head.has_colour != 0 ? std::optional(head.colour) : std::nullopt);
+    if (!wanted_) return;
+    mesh_.begin(head_.vertices);
+    out_.mirrored(head_.is_mirrored != 0);
+    out_.mesh(name, head_.undeformed != 0);
+    out_.material(material, head_.has_colour != 0 ? std::optional(head_.colour) : std::nullopt);
   }
 
-  void take_triangles(std::span<const std::byte> block) {
-    if (block.size() % sizeof(Triangle) != 0) fail();
-    if (wanted_) add_triangles(block, &out_);
-  }
-
-  [[noreturn]] void fail() const { fail_input(file_.path(), "its decoder sent an invalid block"); }
-
-  const File& file_;
   const ReadOptions& options_;
-  BatchWriter out_;
+  MeshWriter& out_;
+  DecodedMeshReceiver mesh_;
+  MeshHead head_;
   bool wanted_ = false;
 };
 
 void read_with_assimp(const File& file, const AssimpFormat& format, const ReadOptions& options,
-                      const TriangleSink& sink) {
+                      MeshWriter* out) {
   const auto memory = options.budget->reserve(file.size(), (format.name + " files").c_str());
   std::vector<std::byte> bytes(size_t(file.size()));
   file.read_at(0, bytes);
-  Receiver receiver(file, options, sink);
-  run_limited(
-      decoder_limits(bytes.size(), *options.budget, options.sandbox), file.path(),
-      [&](const BlockSink& send) { decode(file, bytes, format, send); },
-      [&](std::span<const std::byte> block) { receiver.take(block); });
-  receiver.finish();
+  Receiver receiver(options, out);
+  run_decoder(
+      decoder_limits(bytes.size(), *options.budget), file.path(), options.sandbox,
+      [&](DecoderOutput& decoder) { decode_scene(file, bytes, format, &decoder); },
+      [&](const DecoderMessage& message) { receiver.take(message); });
 }
 
 }  // namespace
 
-void read_fbx(const File& file, const ReadOptions& options, const TriangleSink& sink) {
-  read_with_assimp(file, {"FBX", "fbx"}, options, sink);
+void read_fbx(const File& file, const ReadOptions& options, MeshWriter* out) {
+  read_with_assimp(file, {"FBX", "fbx"}, options, out);
 }
-void read_collada(const File& file, const ReadOptions& options, const TriangleSink& sink) {
-  read_with_assimp(file, {"COLLADA", "dae"}, options, sink);
+void read_collada(const File& file, const ReadOptions& options, MeshWriter* out) {
+  read_with_assimp(file, {"COLLADA", "dae"}, options, out);
 }
-void read_3mf(const File& file, const ReadOptions& options, const TriangleSink& sink) {
-  read_with_assimp(file, {"3MF", "3mf"}, options, sink);
+void read_3mf(const File& file, const ReadOptions& options, MeshWriter* out) {
+  read_with_assimp(file, {"3MF", "3mf"}, options, out);
 }
-void read_3ds(const File& file, const ReadOptions& options, const TriangleSink& sink) {
-  read_with_assimp(file, {"3DS", "3ds"}, options, sink);
+void read_3ds(const File& file, const ReadOptions& options, MeshWriter* out) {
+  read_with_assimp(file, {"3DS", "3ds"}, options, out);
 }
 
 }  // namespace svdag

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/colour.h"
-#include "io/scene/decoders/image_means.h"
+#include "io/scene/decoders/image.h"
 #include "streaming/file/file.h"
 
 namespace svdag {

@@ -4,9 +4,7 @@
 // skipped. The binary form and dimensions other than three are rejected.
 #include <string>
 
-#include "io/scene/mesh/corners.h"
-#include "io/scene/mesh/mesh_reader.h"
-#include "io/scene/polygons/triangulate.h"
+#include "io/scene/polygons/mesh_writer.h"
 #include "io/scene/readers/text_scan.h"
 
 namespace svdag {
@@ -21,58 +19,19 @@ uint64_t read_count(TextScanner& scanner, const char* things, uint64_t bytes) {
   return uint64_t(n);
 }
 
-// The face loop, for positions in memory or spilled (io/scene/mesh/corners.h).
-template <class Corners>
-class OffFaces {
- public:
-  OffFaces(const File& file, TextScanner* scanner, Corners* positions, MemoryBudget* budget)
-      : scanner_(*scanner), positions_(*positions), triangulator_(budget, file.path()) {}
-
-  void read(uint64_t faces, BatchWriter& writer) {
-    for (; faces > 0; --faces) {
-      for (uint64_t corners = read_count(scanner_, "corners", 2); corners > 0; --corners)
-        read_corner();
-      triangulator_.finish(writer);
-      scanner_.next_line();
-    }
-  }
-
- private:
-  void read_corner() {
-    scanner_.at_end();
-    const int64_t index = scanner_.integer();
-    if (index < 0 || uint64_t(index) >= positions_.size())
-      scanner_.fail("has a face with vertex " + std::to_string(index) + ", but there are " +
-                    std::to_string(positions_.size()) + " vertices");
-    triangulator_.corner(positions_[uint64_t(index)]);
-  }
-
-  TextScanner& scanner_;
-  Corners& positions_;
-  Triangulator triangulator_;
-};
-
 class OffReader {
  public:
-  OffReader(const File& file, const ReadOptions& options)
-      : options_(options),
-        stream_(file),
-        scanner_(&stream_, kSyntax),
-        positions_(options, Positions::Precision::kDouble, file.size()) {}
+  OffReader(const File& file, MeshWriter* out)
+      : stream_(file), scanner_(&stream_, kSyntax), out_(*out) {}
 
-  void read(const TriangleSink& sink) {
+  void read() {
     read_keyword();
     const uint64_t vertices = read_count(scanner_, "vertices", 6);  // "0 0 0\n"
     const uint64_t faces = read_count(scanner_, "faces", 2);        // "0\n"
     scanner_.next_line();  // the number of edges is ignored
+    out_.begin(MeshWriter::Precision::kDouble, vertices);
     for (uint64_t i = 0; i < vertices; ++i) read_vertex();
-    BatchWriter writer(sink);
-    read_corners(&positions_, writer, [&](auto& corners, BatchWriter& out) {
-      ByteStream stream(stream_.file(), scanner_.offset());
-      TextScanner scanner(&stream, kSyntax, scanner_.line());
-      OffFaces(stream_.file(), &scanner, &corners, options_.budget).read(faces, out);
-    });
-    writer.flush();
+    for (uint64_t i = 0; i < faces; ++i) read_face();
   }
 
  private:
@@ -106,20 +65,32 @@ class OffReader {
       scanner_.at_end();
       p[a] = scanner_.number();
     }
-    positions_.add(p);
+    out_.vertex(p);
     scanner_.next_line();
   }
 
-  const ReadOptions& options_;
+  void read_face() {
+    for (uint64_t corners = read_count(scanner_, "corners", 2); corners > 0; --corners) {
+      scanner_.at_end();
+      const int64_t index = scanner_.integer();
+      if (index < 0 || uint64_t(index) >= out_.vertices())
+        scanner_.fail("has a face with vertex " + std::to_string(index) + ", but there are " +
+                      std::to_string(out_.vertices()) + " vertices");
+      out_.corner(uint64_t(index));
+    }
+    out_.end_polygon();
+    scanner_.next_line();
+  }
+
   ByteStream stream_;
   TextScanner scanner_;
-  Positions positions_;
+  MeshWriter& out_;
 };
 
 }  // namespace
 
-void read_off(const File& file, const ReadOptions& options, const TriangleSink& sink) {
-  if (options.wants("")) OffReader(file, options).read(sink);
+void read_off(const File& file, const ReadOptions& options, MeshWriter* out) {
+  if (options.wants("")) OffReader(file, out).read();
 }
 
 }  // namespace svdag

@@ -9,10 +9,9 @@
 #include <array>
 #include <exception>
 #include <sstream>
+#include <vector>
 
-#include "io/scene/decoders/limited_decoder.h"
-#include "io/scene/mesh/mesh_reader.h"
-#include "io/scene/polygons/triangulate.h"
+#include "io/scene/readers/decoded_mesh.h"
 #include "streaming/error.h"
 
 namespace svdag {
@@ -64,12 +63,12 @@ void load(const File& file, std::span<const std::byte> bytes, Mesh* mesh) {
   if (!read) fail_input(file.path(), "is a broken OpenMesh file");
 }
 
-// Calls `use` with the corners of a face. OpenMesh takes the links of halfedges from the file as
-// they are: they may lead nowhere, or round and round beside where they began. `left`: corners that
-// the mesh can still have, one per halfedge.
-template <class Use>
-void each_corner(const File& file, const Mesh& mesh, Mesh::FaceHandle face, uint64_t* left,
-                 const Use& use) {
+// Fills `corners` with the corners of a face. OpenMesh takes the links of halfedges from the file
+// as they are: they may lead nowhere, or round and round beside where they began. `left`: corners
+// that the mesh can still have, one per halfedge.
+void find_corners(const File& file, const Mesh& mesh, Mesh::FaceHandle face, uint64_t* left,
+                  std::vector<uint32_t>* corners) {
+  corners->clear();
   const auto first = mesh.halfedge_handle(face);
   auto halfedge = first;
   do {
@@ -77,61 +76,51 @@ void each_corner(const File& file, const Mesh& mesh, Mesh::FaceHandle face, uint
       fail_input(file.path(), "is a broken OpenMesh file");
     const auto vertex = mesh.to_vertex_handle(halfedge);
     if (!mesh.is_valid_handle(vertex)) fail_input(file.path(), "is a broken OpenMesh file");
-    const OpenMesh::Vec3d& p = mesh.point(vertex);
-    use(Point(p[0], p[1], p[2]));
+    corners->push_back(uint32_t(vertex.idx()));
     halfedge = mesh.next_halfedge_handle(halfedge);
   } while (halfedge != first);
 }
 
-void decode(const File& file, std::span<const std::byte> bytes, const OmHeader& header,
-            const TriangleSink& sink) {
+void decode_om(const File& file, std::span<const std::byte> bytes, const OmHeader& header,
+               DecoderOutput* decoder) {
   Mesh mesh;
   load(file, bytes, &mesh);
   if (mesh.n_faces() != header.faces) {
     fail_input(file.path(), "has " + std::to_string(header.faces) +
-                                " faces, of which OpenMesh could read only " +
+                                " faces, but OpenMesh could read only " +
                                 std::to_string(mesh.n_faces()));
   }
-  BatchWriter out(sink);
-  MemoryBudget without_limit;  // the process of its own has one
-  Triangulator polygon(&without_limit, file.path());
-  uint64_t left = mesh.n_halfedges();
-  for (const auto face : mesh.faces()) {
-    each_corner(file, mesh, face, &left, [&](const Point& p) { polygon.corner(p); });
-    polygon.finish(out);
+  DecodedMeshSender out(decoder);
+  for (const auto vertex : mesh.vertices()) {
+    const OpenMesh::Vec3d& p = mesh.point(vertex);
+    out.vertex({p[0], p[1], p[2]});
   }
-  out.flush();
-}
-
-void decode_limited(const File& file, std::span<const std::byte> bytes, const OmHeader& header,
-                    const ChildLimits& limits, const TriangleSink& sink) {
-  BatchWriter out(sink);
-  run_limited(
-      limits, file.path(),
-      [&](const BlockSink& send) {
-        decode(file, bytes, header,
-               [&](const TriangleBatch& batch) { send(std::as_bytes(batch.triangles)); });
-      },
-      [&](std::span<const std::byte> block) {
-        if (block.size() % sizeof(Triangle) != 0)
-          fail_input(file.path(), "its decoder sent an invalid triangle");
-        add_triangles(block, &out);
-      });
-  out.flush();
+  uint64_t left = mesh.n_halfedges();
+  std::vector<uint32_t> corners;
+  for (const auto face : mesh.faces()) {
+    find_corners(file, mesh, face, &left, &corners);
+    out.polygon(corners);
+  }
+  out.finish();
 }
 
 }  // namespace
 
-void read_openmesh(const File& file, const ReadOptions& options, const TriangleSink& sink) {
+void read_openmesh(const File& file, const ReadOptions& options, MeshWriter* out) {
   if (!options.wants("")) return;
   const OmHeader header = read_header(file);
   const auto memory = options.budget->reserve(
       2 * file.size() + (header.vertices + header.faces) * kBytesPerElement, "OpenMesh files");
   std::vector<std::byte> bytes(size_t(file.size()));
   file.read_at(0, bytes);
-  ChildLimits limits = decoder_limits(bytes.size(), *options.budget, options.sandbox);
+  DecoderLimits limits = decoder_limits(bytes.size(), *options.budget);
   limits.memory += memory.bytes();  // the child takes it
-  decode_limited(file, bytes, header, limits, sink);
+  DecodedMeshReceiver receiver(out);
+  receiver.begin(header.vertices);
+  run_decoder(
+      limits, file.path(), options.sandbox,
+      [&](DecoderOutput& decoder) { decode_om(file, bytes, header, &decoder); },
+      [&](const DecoderMessage& message) { receiver.receive(message); });
 }
 
 }  // namespace svdag

@@ -6,8 +6,6 @@
 #include <array>
 #include <optional>
 
-#include "io/scene/mesh/corners.h"
-#include "io/scene/mesh/mesh_reader.h"
 #include "io/scene/readers/ply_faces.h"
 #include "io/scene/readers/ply_values.h"
 
@@ -17,10 +15,10 @@ namespace {
 template <class Values>
 class PlyBody {
  public:
-  PlyBody(const File& file, const PlyHeader& header, const ReadOptions& options)
-      : file_(file), header_(header), options_(options) {}
+  PlyBody(const File& file, const PlyHeader& header, MeshWriter* out)
+      : file_(file), header_(header), out_(*out) {}
 
-  void read(PlyPlace begin, const TriangleSink& sink) {
+  void read(PlyPlace begin) {
     const auto& elements = header_.elements;
     const auto vertices = std::find_if(elements.begin(), elements.end(),
                                        [](const PlyElement& e) { return e.name == "vertex"; });
@@ -34,19 +32,13 @@ class PlyBody {
       read_vertices(values, *vertices);
       places_.push_back(values.place());
     }
-    BatchWriter writer(sink);
-    read_corners(&*positions_, writer, [&](auto& corners, BatchWriter& out) {
-      PlyFaces<Values, std::remove_reference_t<decltype(corners)>> faces(file_, &corners,
-                                                                         options_.budget, &out);
-      read_faces(faces);
-    });
-    writer.flush();
+    read_faces();
   }
 
  private:
-  // All elements but the vertices.
-  template <class Faces>
-  void read_faces(Faces& faces) {
+  // All elements except the vertices.
+  void read_faces() {
+    PlyFaces<Values> faces(&out_);
     const auto& elements = header_.elements;
     const size_t earlier = places_.size() - 1;
     for (size_t i = 0; i < earlier; ++i) {
@@ -73,9 +65,8 @@ class PlyBody {
     check_count(values, element);
     // A float property holds floats; text declared as a short integer may hold any number.
     if (header_.format == PlyFormat::kAscii) single = single && all_float(element, coordinate);
-    positions_.emplace(options_,
-                       single ? Positions::Precision::kSingle : Positions::Precision::kDouble,
-                       element.count);
+    out_.begin(single ? MeshWriter::Precision::kSingle : MeshWriter::Precision::kDouble,
+               element.count);
     uint64_t row = 0;
     if constexpr (std::is_same_v<Values, PlyBinaryValues>) {
       if (const auto offset = plain_vertices(values, element))
@@ -90,7 +81,7 @@ class PlyBody {
           skip_property(values, element.properties[i]);
         }
       }
-      positions_->add({read[0], read[1], read[2]});
+      out_.vertex({read[0], read[1], read[2]});
     }
   }
 
@@ -119,7 +110,7 @@ class PlyBody {
       const std::byte* p = bytes.data() + offset;
       for (uint64_t i = 0; i < visible; ++i, p += row_bytes) {
         const auto v = load<std::array<float, 3>>(p, std::endian::native);
-        positions_->add({v[0], v[1], v[2]});
+        out_.vertex({v[0], v[1], v[2]});
       }
       values.stream().skip(visible * row_bytes);
       done += visible;
@@ -136,22 +127,21 @@ class PlyBody {
 
   const File& file_;
   const PlyHeader& header_;
-  const ReadOptions& options_;
+  MeshWriter& out_;
   std::vector<PlyPlace> places_;  // of the elements before the vertices, and of what follows those
-  std::optional<Positions> positions_;
 };
 
 }  // namespace
 
-void read_ply(const File& file, const ReadOptions& options, const TriangleSink& sink) {
+void read_ply(const File& file, const ReadOptions& options, MeshWriter* out) {
   if (!options.wants("")) return;
   ByteStream stream(file);
   const PlyHeader header = read_ply_header(&stream);
   const PlyPlace body{stream.offset(), header.lines + 1};
   if (header.format == PlyFormat::kAscii) {
-    PlyBody<PlyTextValues>(file, header, options).read(body, sink);
+    PlyBody<PlyTextValues>(file, header, out).read(body);
   } else {
-    PlyBody<PlyBinaryValues>(file, header, options).read(body, sink);
+    PlyBody<PlyBinaryValues>(file, header, out).read(body);
   }
 }
 

@@ -1,6 +1,6 @@
 // The faces of a PLY file: polygons and triangle strips.
 //
-// Written once for text and binary (ply_values.h) and for positions in memory or not (corners.h).
+// Written once for text and binary (ply_values.h).
 // Rows of plain triangles in a binary file, as in scans, are taken directly from the window.
 #pragma once
 
@@ -8,9 +8,7 @@
 #include <array>
 #include <optional>
 
-#include "io/scene/mesh/corners.h"
-#include "io/scene/mesh/mesh_reader.h"
-#include "io/scene/polygons/triangulate.h"
+#include "io/scene/polygons/mesh_writer.h"
 #include "io/scene/readers/ply_values.h"
 
 namespace svdag {
@@ -34,11 +32,10 @@ inline std::optional<TriangleRow> triangle_row(const PlyElement& element, size_t
   return row;
 }
 
-template <class Values, class Corners>
+template <class Values>
 class PlyFaces {
  public:
-  PlyFaces(const File& file, Corners* positions, MemoryBudget* budget, BatchWriter* writer)
-      : positions_(*positions), triangulator_(budget, file.path()), writer_(*writer) {}
+  explicit PlyFaces(MeshWriter* out) : out_(*out) {}
 
   // Rows of "face" are polygons, rows of "tristrips" are strips; everything else is skipped.
   void read(Values& values, const PlyElement& element) {
@@ -73,12 +70,12 @@ class PlyFaces {
   }
 
  private:
-  // As many rows as are plain triangles, at most `most`; returns their number.
-  uint64_t read_plain_rows(PlyBinaryValues& values, const TriangleRow& row, uint64_t most) {
+  // Reads rows while they are plain triangles, at most `max_rows`; returns their number.
+  uint64_t read_plain_rows(PlyBinaryValues& values, const TriangleRow& row, uint64_t max_rows) {
     uint64_t done = 0;
-    while (done < most) {
+    while (done < max_rows) {
       const auto bytes = values.stream().peek(row.bytes);
-      const uint64_t visible = std::min<uint64_t>(bytes.size() / row.bytes, most - done);
+      const uint64_t visible = std::min<uint64_t>(bytes.size() / row.bytes, max_rows - done);
       uint64_t taken = 0;
       for (const std::byte* p = bytes.data() + row.before; taken < visible; ++taken) {
         if (*p != std::byte{3}) break;
@@ -86,8 +83,8 @@ class PlyFaces {
         const auto a = load<uint32_t>(p + 1, std::endian::native);
         const auto b = load<uint32_t>(p + 5, std::endian::native);
         const auto c = load<uint32_t>(p + 9, std::endian::native);
-        if (std::max({a, b, c}) >= positions_.size()) break;  // the slow path reports it
-        add_triangle(positions_, a, b, c, writer_);
+        if (std::max({a, b, c}) >= out_.vertices()) break;  // the slow path reports it
+        out_.triangle(a, b, c);
         p += row.bytes;
       }
       values.stream().skip(taken * row.bytes);
@@ -97,24 +94,23 @@ class PlyFaces {
     return done;
   }
 
-  Point position(Values& values, int64_t index) {
-    if (index < 0 || uint64_t(index) >= positions_.size())
+  uint64_t vertex(Values& values, int64_t index) {
+    if (index < 0 || uint64_t(index) >= out_.vertices())
       values.fail("has a face with vertex " + std::to_string(index) + ", but there are " +
-                  std::to_string(positions_.size()) + " vertices");
-    return positions_[uint64_t(index)];
+                  std::to_string(out_.vertices()) + " vertices");
+    return uint64_t(index);
   }
 
   void read_polygon(Values& values, const PlyProperty& list) {
     for (uint64_t left = list_length(values, list); left > 0; --left)
-      triangulator_.corner(position(values, values.integer(list.type)));
-    triangulator_.finish(writer_);
+      out_.corner(vertex(values, values.integer(list.type)));
+    out_.end_polygon();
   }
 
   // Each index makes a triangle with the two before it; -1 starts a new strip. Repeated indices
   // stitch strips together; their triangles are not part of the surface.
   void read_strip(Values& values, const PlyProperty& list) {
-    std::array<int64_t, 2> last{};
-    std::array<Point, 2> corner{};
+    std::array<uint64_t, 2> last{};
     uint64_t known = 0;  // indices since the start
     for (uint64_t left = list_length(values, list); left > 0; --left) {
       const int64_t index = values.integer(list.type);
@@ -122,20 +118,17 @@ class PlyFaces {
         known = 0;
         continue;
       }
-      const Point p = position(values, index);
-      if (known >= 2 && index != last[0] && index != last[1] && last[0] != last[1]) {
+      const uint64_t v = vertex(values, index);
+      if (known >= 2 && v != last[0] && v != last[1] && last[0] != last[1]) {
         const size_t odd = known % 2;  // every second triangle is turned over
-        writer_.add(corner[odd], corner[1 - odd], p);
+        out_.triangle(last[odd], last[1 - odd], v);
       }
-      last = {last[1], index};
-      corner = {corner[1], p};
+      last = {last[1], v};
       ++known;
     }
   }
 
-  Corners& positions_;
-  Triangulator triangulator_;
-  BatchWriter& writer_;
+  MeshWriter& out_;
 };
 
 }  // namespace svdag

@@ -108,7 +108,7 @@ class PlyTextValues {
   void skip(PlyType type, uint64_t count) {
     for (; count > 0; --count) number(type);
   }
-  // A value takes a digit and a blank, but for the last of the file.
+  // A value takes a digit and a blank, except the last of the file.
   bool may_hold(uint64_t count, PlyType) const { return count <= (scanner_.remaining() + 1) / 2; }
   bool may_hold(const PlyElement& element) const {
     return element.count <= (scanner_.remaining() + 1) / 2 / element.properties.size();

@@ -8,7 +8,7 @@
 #include <array>
 #include <cctype>
 
-#include "io/scene/mesh/mesh_reader.h"
+#include "io/scene/polygons/mesh_writer.h"
 #include "io/scene/readers/endian.h"
 #include "io/scene/readers/text_scan.h"
 #include "streaming/error.h"
@@ -17,7 +17,7 @@ namespace svdag {
 namespace {
 
 constexpr size_t kBinaryHeader = 84;  // 80 bytes of text, the count
-constexpr size_t kRecord = 50;  // normal, three corners, attribute
+constexpr size_t kRecord = 50;        // normal, three corners, attribute
 constexpr size_t kNormal = 12;
 
 // The count of a binary file; at least kBinaryHeader bytes.
@@ -27,7 +27,7 @@ uint64_t binary_count(const File& file) {
   return load_little<uint32_t>(bytes.data());
 }
 
-// "solid" behind blanks, and none of the zeros that a binary file has in its count at the latest.
+// "solid" behind blanks, and no zero byte: a binary file has one at the latest in its count.
 bool begins_as_text(const File& file) {
   std::array<char, 512> head{};
   const size_t n = file.read_some_at(0, std::as_writable_bytes(std::span(head)));
@@ -42,7 +42,7 @@ bool begins_as_text(const File& file) {
   return true;
 }
 
-void read_binary(const File& file, uint64_t count, BatchWriter& writer) {
+void read_binary(const File& file, uint64_t count, MeshWriter* out) {
   ByteStream stream(file, kBinaryHeader);
   while (count > 0) {
     const auto bytes = stream.peek(kRecord);
@@ -53,7 +53,7 @@ void read_binary(const File& file, uint64_t count, BatchWriter& writer) {
       std::array<Point, 3> v;
       for (size_t k = 0; k < 9; ++k)
         v[k / 3][int(k % 3)] = double(load_little<float>(p + k * sizeof(float)));
-      writer.add(v[0], v[1], v[2]);
+      out->add(v[0], v[1], v[2]);
     }
     stream.skip(rows * kRecord);
     count -= rows;
@@ -62,14 +62,14 @@ void read_binary(const File& file, uint64_t count, BatchWriter& writer) {
 
 class TextReader {
  public:
-  TextReader(const File& file, const ReadOptions& options, BatchWriter* writer)
-      : options_(options), stream_(file), scanner_(&stream_, {}), writer_(writer) {}
+  TextReader(const File& file, const ReadOptions& options, MeshWriter* out)
+      : options_(options), stream_(file), scanner_(&stream_, {}), out_(*out) {}
 
   void read() {
     while (!scanner_.at_end()) {
       expect("solid");
       const std::string name(scanner_.rest_of_line());
-      writer_->mesh(name);
+      out_.mesh(name);
       const bool wanted = options_.wants(name);
       while (next_is_facet()) read_facet(wanted);
       scanner_.next_line();  // the name again
@@ -110,27 +110,26 @@ class TextReader {
     }
     expect("endloop");
     expect("endfacet");
-    if (wanted) writer_->add(v[0], v[1], v[2]);
+    if (wanted) out_.add(v[0], v[1], v[2]);
   }
 
   const ReadOptions& options_;
   ByteStream stream_;
   TextScanner scanner_;
-  BatchWriter* writer_;
+  MeshWriter& out_;
 };
 
 }  // namespace
 
-void read_stl(const File& file, const ReadOptions& options, const TriangleSink& sink) {
-  BatchWriter writer(sink);
+void read_stl(const File& file, const ReadOptions& options, MeshWriter* out) {
   const uint64_t size = file.size();
   const uint64_t count = size < kBinaryHeader ? 0 : binary_count(file);
   const uint64_t expected = kBinaryHeader + kRecord * count;
   const bool padded = count > 0 && size > expected && size - expected < kRecord;
   if (size != expected && begins_as_text(file)) {
-    TextReader(file, options, &writer).read();
+    TextReader(file, options, out).read();
   } else if (size == expected || padded) {
-    if (options.wants("")) read_binary(file, count, writer);
+    if (options.wants("")) read_binary(file, count, out);
   } else if (size < kBinaryHeader) {
     fail_input(file.path(), "is too short for an STL file");
   } else {
@@ -138,7 +137,6 @@ void read_stl(const File& file, const ReadOptions& options, const TriangleSink& 
                                 std::to_string(expected) + " bytes, but it has " +
                                 std::to_string(size));
   }
-  writer.flush();
 }
 
 }  // namespace svdag

@@ -25,7 +25,7 @@ class TextScanner {
  public:
   struct Syntax {
     char comment = '\n';        // at the start of a word: the rest of the line is a comment; a line
-                                // end, which ends the line anyway: there are none
+                                // end (which ends the line anyway): no comments
     bool continuation = false;  // a backslash before the line's end joins the next line
   };
   static constexpr size_t kLongestWord = 4096;

@@ -81,8 +81,8 @@ struct RandomMesh {
     };
     for (const auto& face : faces) {
       if (random() % 20 == 0)
-        text += std::array{"g roof tiles\n", "g wall\n", "o house\n",
-                           "g hidden\n",     "s off\n",  "vt 0 1\n"}[random() % 6];
+        text += std::array{"g roof tiles\n", "g wall\n", "o house\n",     "g hidden\n",
+                           "s off\n",        "vt 0 1\n", "usemtl brick\n"}[random() % 7];
       if (random() % 4 == 0) vertices_to(std::min(written + 9, uint32_t(vertices.size())));
       for (const uint32_t i : face) vertices_to(std::max(written, i + 1));
       text += random() % 8 == 0 ? "f\t" : "f ";

@@ -8,13 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "io/scene/mesh/mesh_reader.h"
+#include "io/scene/polygons/mesh_writer.h"
 #include "streaming/error.h"
 #include "tests/memory_file.h"
 
 namespace svdag {
 
-using Reader = void (*)(const File&, const ReadOptions&, const TriangleSink&);
 using Corners = std::array<std::array<double, 3>, 3>;
 
 // The halves of the unit square in the plane z = 0.
@@ -33,12 +32,12 @@ inline Corners corners_of(const Triangle& t) {
   return corners;
 }
 
-inline Reading read(Reader reader, std::string_view bytes, const NameFilter& names = {},
+inline Reading read(MeshReader reader, std::string_view bytes, const NameFilter& names = {},
                     uint64_t limit = MemoryBudget::kUnlimited) {
   const MemoryFile memory(bytes);
   MemoryBudget budget(limit);
   Reading reading;
-  reader(memory.file(), {&names, false, &budget}, [&](const TriangleBatch& batch) {
+  read_meshes(reader, memory.file(), {&names, false, &budget}, [&](const TriangleBatch& batch) {
     EXPECT_LE(batch.triangles.size(), BatchWriter::kBatch);
     for (const Triangle& t : batch.triangles) {
       reading.triangles.push_back(corners_of(t));
@@ -51,7 +50,7 @@ inline Reading read(Reader reader, std::string_view bytes, const NameFilter& nam
 }
 
 // The sentence of the Error that reading must end with; exit code 3 and little memory, always.
-inline std::string refusal(Reader reader, std::string_view bytes) {
+inline std::string refusal(MeshReader reader, std::string_view bytes) {
   try {
     read(reader, bytes, {}, uint64_t(16) << 20);
   } catch (const Error& error) {
@@ -63,7 +62,7 @@ inline std::string refusal(Reader reader, std::string_view bytes) {
 }
 
 // Every file that is cut short by more than `harmless_tail` bytes is refused.
-inline void expect_no_truncation_goes_unnoticed(Reader reader, std::string_view bytes,
+inline void expect_no_truncation_goes_unnoticed(MeshReader reader, std::string_view bytes,
                                                 size_t harmless_tail) {
   ASSERT_FALSE(read(reader, bytes).triangles.empty());
   for (size_t size = 0; size + harmless_tail < bytes.size(); ++size)

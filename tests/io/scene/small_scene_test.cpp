@@ -13,14 +13,14 @@ uint64_t heap_bytes() {
 }
 
 // The memory of a reader while it passes on the triangles of `text`.
-uint64_t held_by(Reader reader, std::string_view text) {
+uint64_t held_by(MeshReader reader, std::string_view text) {
   const MemoryFile memory(text);
   MemoryBudget budget;
   const NameFilter names;
   const uint64_t before = heap_bytes();
   uint64_t most = 0;
-  reader(memory.file(), {&names, false, &budget},
-         [&](const TriangleBatch&) { most = std::max(most, heap_bytes() - before); });
+  read_meshes(reader, memory.file(), {&names, false, &budget},
+              [&](const TriangleBatch&) { most = std::max(most, heap_bytes() - before); });
   EXPECT_LT(budget.peak(), 8192U);  // a polygon has room for 64 corners
   return most;
 }

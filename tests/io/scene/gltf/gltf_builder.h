@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "io/scene/mesh/mesh_reader.h"
+#include "io/scene/polygons/mesh_writer.h"
 #include "streaming/error.h"
 #include "tests/temp_folder.h"
 
@@ -99,7 +99,7 @@ inline CornerList read_corners(const std::string& path, const NameFilter& filter
   MemoryBudget budget;
   CornerList corners;
   const File file = File::open_read(path);
-  read_gltf(file, {&filter, false, &budget}, [&](const TriangleBatch& batch) {
+  read_meshes(read_gltf, file, {&filter, false, &budget}, [&](const TriangleBatch& batch) {
     if (names != nullptr) names->push_back(std::string(batch.mesh));
     for (const Triangle& t : batch.triangles) {
       for (const Point& p : t.v) corners.push_back({p.x, p.y, p.z});

@@ -268,7 +268,7 @@ TEST(GltfHostile, ABudgetIsKeptAndGivenBack) {
   const NameFilter all;
   MemoryBudget small(uint64_t(1) << 20);
   try {
-    read_gltf(file, {&all, false, &small}, [](const TriangleBatch&) {});
+    read_meshes(read_gltf, file, {&all, false, &small}, [](const TriangleBatch&) {});
     FAIL() << "100000 vertices do not fit in one MiB";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::kMemory);

@@ -1,7 +1,7 @@
 // Colours of glTF materials: factors times the means of textures, wherever the images are.
 #include <gtest/gtest.h>
 
-#include "io/scene/decoders/image_means.h"
+#include "io/scene/decoders/image.h"
 #include "io/scene/scene.h"
 #include "tests/io/scene/gltf/gltf_builder.h"
 #include "tests/io/scene/png_file.h"

@@ -65,7 +65,8 @@ TEST(GltfKept, LittleMemoryKeepsNothing) {
   const auto peak = [&](uint64_t limit) {
     MemoryBudget budget(limit);
     const NameFilter all;
-    read_gltf(File::open_read(path), {&all, false, &budget}, [](const TriangleBatch&) {});
+    read_meshes(read_gltf, File::open_read(path), {&all, false, &budget},
+                [](const TriangleBatch&) {});
     EXPECT_EQ(budget.used(), 0U);
     return budget.peak();
   };

@@ -1,6 +1,5 @@
 // Positions that are spilled and joined give what positions in memory give: the same triangles bit
 // by bit, in order, with the same names and numbers, and the same error behind the same triangles.
-#include "io/scene/mesh/corners.h"
 #include "tests/io/scene/gltf/gltf_builder.h"
 #include "tests/io/scene/mesh/test_spill.h"
 #include "tests/io/scene/random_mesh.h"
@@ -51,7 +50,7 @@ struct Tally {
 };
 
 template <class Write>
-void compare_random_meshes(SceneReader reader, uint64_t seed, int rounds, const Write& write) {
+void compare_random_meshes(MeshReader reader, uint64_t seed, int rounds, const Write& write) {
   Random random(seed);
   Tally tally;
   for (int round = 0; round < rounds && !::testing::Test::HasFailure(); ++round) {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "io/scene/mesh/mesh_reader.h"
+#include "io/scene/polygons/mesh_writer.h"
 #include "streaming/error.h"
 #include "streaming/spill/scratch_dir.h"
 #include "streaming/spill/spill_file.h"
@@ -45,8 +45,6 @@ class TestSpill {
   SpillSpace space_;
 };
 
-using SceneReader = void (*)(const File&, const ReadOptions&, const TriangleSink&);
-
 // All that a reader said: of each triangle the bits of its corners, its mesh and its number; and
 // the sentence of the Error in the end.
 struct Outcome {
@@ -57,7 +55,7 @@ struct Outcome {
   bool operator==(const Outcome&) const = default;
 };
 
-inline Outcome outcome_of(SceneReader reader, const File& file, MemoryBudget* budget,
+inline Outcome outcome_of(MeshReader reader, const File& file, MemoryBudget* budget,
                           const SpillSpace* spill = nullptr) {
   const NameFilter names{{}, {"hidden"}};
   Outcome outcome;
@@ -66,12 +64,13 @@ inline Outcome outcome_of(SceneReader reader, const File& file, MemoryBudget* bu
       for (const Point& p : batch.triangles[k].v) {
         for (int a = 0; a < 3; ++a) outcome.triangles.push_back(std::bit_cast<uint64_t>(p[a]));
       }
-      outcome.triangles.push_back(std::hash<std::string_view>()(batch.mesh));
+      outcome.triangles.push_back(std::hash<std::string_view>()(batch.mesh) ^
+                                  3 * std::hash<std::string_view>()(batch.material));
       outcome.triangles.push_back(batch.first + k);
     }
   };
   try {
-    reader(file, {&names, false, budget, spill}, sink);
+    read_meshes(reader, file, {&names, false, budget, spill}, sink);
   } catch (const Error& error) {
     outcome.error = error.what();
     outcome.code = error.code();
@@ -81,8 +80,8 @@ inline Outcome outcome_of(SceneReader reader, const File& file, MemoryBudget* bu
 
 // Reads `bytes` in memory and with `share`: the same is said, within the share. `beside`: memory
 // that the format needs for other things.
-inline Outcome expect_same_when_spilled(SceneReader reader, const std::string& bytes,
-                                        uint64_t share, uint64_t beside = 1 << 15) {
+inline Outcome expect_same_when_spilled(MeshReader reader, const std::string& bytes, uint64_t share,
+                                        uint64_t beside = 1 << 15) {
   const MemoryFile memory(bytes);
   MemoryBudget plenty, little(share + beside);
   const Outcome expected = outcome_of(reader, memory.file(), &plenty);

@@ -65,7 +65,7 @@ std::pair<std::vector<uint64_t>, std::string> outcome(const std::string& text) {
   const NameFilter names;
   std::vector<uint64_t> bits;
   try {
-    read_obj(memory.file(), {&names, false, &budget}, [&](const TriangleBatch& batch) {
+    read_meshes(read_obj, memory.file(), {&names, false, &budget}, [&](const TriangleBatch& batch) {
       for (const Triangle& t : batch.triangles) {
         for (const Point& p : t.v) {
           for (int a = 0; a < 3; ++a) bits.push_back(std::bit_cast<uint64_t>(p[a]));

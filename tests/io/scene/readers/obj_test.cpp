@@ -69,7 +69,7 @@ TEST(Obj, TrianglesAreNumberedWithinTheirGroup) {
   MemoryBudget budget;
   const NameFilter names;
   std::vector<uint64_t> firsts;
-  read_obj(memory.file(), {&names, false, &budget},
+  read_meshes(read_obj, memory.file(), {&names, false, &budget},
            [&](const TriangleBatch& batch) { firsts.push_back(batch.first); });
   EXPECT_EQ(firsts, (std::vector<uint64_t>{0, 0}));
 }

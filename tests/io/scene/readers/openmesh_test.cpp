@@ -51,7 +51,7 @@ CornerList read_om(const std::string& path, bool sandbox = false) {
   CornerList corners;
   ReadOptions options{&all, false, &budget};
   options.sandbox = sandbox;
-  read_openmesh(File::open_read(path), options, [&](const TriangleBatch& batch) {
+  read_meshes(read_openmesh, File::open_read(path), options, [&](const TriangleBatch& batch) {
     for (const Triangle& t : batch.triangles) {
       for (const Point& p : t.v) corners.push_back({p.x, p.y, p.z});
     }

@@ -1,4 +1,4 @@
-#include "io/scene/mesh/corner_tree.h"
+#include "io/scene/polygons/corner_tree.h"
 
 #include <bit>
 #include <glm/common.hpp>

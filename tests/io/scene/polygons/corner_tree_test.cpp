@@ -1,5 +1,5 @@
 // What finds ears: the corners in a region, and the next candidate around the ring.
-#include "io/scene/mesh/corner_tree.h"
+#include "io/scene/polygons/corner_tree.h"
 
 #include <gtest/gtest.h>
 

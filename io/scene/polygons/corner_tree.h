@@ -38,7 +38,7 @@ class CornerTree {
   uint32_t find(const MayHold& may_hold, const Is& is) const;
 
  private:
-  static constexpr uint32_t kLeaf = 16;  // at most so many corners in a leaf
+  static constexpr uint32_t kLeaf = 16;  // max corners of a leaf
 
   struct Node {
     FlatBox box;

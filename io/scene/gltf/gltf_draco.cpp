@@ -1,0 +1,125 @@
+#include "io/scene/gltf/gltf_draco.h"
+
+#include <algorithm>
+
+#include "io/scene/decoders/draco.h"
+#include "streaming/error.h"
+
+namespace svdag {
+namespace {
+
+// Compressed bytes after which a child takes no further primitive.
+constexpr uint64_t kChildBytes = uint64_t(1) << 18;
+
+constexpr const char* kDraco = "KHR_draco_mesh_compression";
+
+}  // namespace
+
+// Whether an accessor has data outside of Draco's.
+bool DracoPrimitives::has_data(uint64_t accessor) const {
+  return document_.element("accessors", accessor).has("bufferView");
+}
+
+bool DracoPrimitives::is_draco(const JsonObject& primitive) const {
+  if (!primitive.extension(kDraco)) return false;
+  return !has_data(primitive.object("attributes").whole_number("POSITION")) ||
+         (primitive.has("indices") && !has_data(primitive.whole_number("indices")));
+}
+
+DracoPrimitives::Packed DracoPrimitives::pack(const nlohmann::json& value) {
+  const JsonObject primitive(value, document_.file->path());
+  const JsonObject draco = *primitive.extension(kDraco);
+  const uint64_t accessor = primitive.object("attributes").whole_number("POSITION");
+  Packed packed{&value, {}, {}, 0, false};
+  packed.bytes = buffers_.view_bytes(draco.whole_number("bufferView"), &packed.memory);
+  packed.position_id = draco.object("attributes").whole_number("POSITION");
+  packed.normalized = document_.element("accessors", accessor).flag("normalized");
+  return packed;
+}
+
+// `primitive` and what follows it in the file, as far as it is not broken.
+std::vector<DracoPrimitives::Packed> DracoPrimitives::pack_from(const nlohmann::json& primitive) {
+  if (!listed_) {
+    for (const auto& mesh : document_.root().array("meshes")) {
+      for (const auto& each : JsonObject(mesh, document_.file->path()).array("primitives"))
+        in_order_.push_back(&each);
+    }
+    std::sort(in_order_.begin(), in_order_.end());  // an array's elements ascend
+    listed_ = true;
+  }
+  std::vector<Packed> packed;
+  packed.push_back(pack(primitive));
+  uint64_t bytes = packed.front().bytes.size();
+  auto next = std::upper_bound(in_order_.begin(), in_order_.end(), &primitive);
+  try {
+    for (; next != in_order_.end() && bytes < kChildBytes; ++next) {
+      if (unpacked_.contains(*next) || !is_draco(JsonObject(**next, document_.file->path())))
+        continue;
+      packed.push_back(pack(**next));
+      bytes += packed.back().bytes.size();
+    }
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kBadInput && error.code() != ExitCode::kMemory) throw;
+  }
+  return packed;
+}
+
+void DracoPrimitives::unpack(const std::vector<Packed>& packed) {
+  if (!file_) file_ = create_unpacked(document_.file->path(), options_.spill);
+  std::vector<DracoSource> sources;
+  for (const Packed& each : packed)
+    sources.push_back({each.bytes, each.position_id, each.normalized});
+  struct Place {
+    uint64_t positions, indices, end;
+    double step;
+  };
+  std::vector<Place> places;  // in the file
+  const auto append = [&](std::span<const std::byte> bytes) {
+    file_->write_at(file_bytes_, bytes);
+    file_bytes_ += bytes.size();
+    places.back().end = file_bytes_;
+  };
+  const DracoReceiver receiver = {
+      [&](size_t source, double step) {
+        places.resize(source);
+        places.push_back({file_bytes_, file_bytes_, file_bytes_, step});
+      },
+      [&](std::span<const Point> points) {
+        append(std::as_bytes(points));
+        places.back().indices = file_bytes_;
+      },
+      [&](std::span<const uint32_t> indices) { append(std::as_bytes(indices)); }};
+  const size_t done =
+      decode_draco(sources, document_.file->path(), *options_.budget, options_.sandbox, receiver);
+  for (size_t i = 0; i < done; ++i) {
+    const Place& at = places[i];
+    Unpacked& made = unpacked_[packed[i].key];
+    made.positions = Blob::in_file(&*file_, at.positions, at.indices - at.positions);
+    made.indices = Blob::in_file(&*file_, at.indices, at.end - at.indices);
+    made.primitive.step = at.step;
+    const std::string* path = &document_.file->path();
+    made.primitive.positions = {{&made.positions, 0, sizeof(Point),
+                                 made.positions.size() / sizeof(Point), ComponentType::kDouble, 3},
+                                {},
+                                {},
+                                path};
+    made.primitive.indices = {
+        {&made.indices, 0, sizeof(uint32_t), made.indices.size() / sizeof(uint32_t),
+         ComponentType::kUnsignedInt, 1},
+        {},
+        {},
+        path};
+  }
+}
+
+const DracoPrimitive* DracoPrimitives::find(const nlohmann::json& primitive) {
+  auto known = unpacked_.find(&primitive);
+  if (known == unpacked_.end()) {
+    if (!is_draco(JsonObject(primitive, document_.file->path()))) return nullptr;
+    unpack(pack_from(primitive));
+    known = unpacked_.find(&primitive);
+  }
+  return &known->second.primitive;
+}
+
+}  // namespace svdag

@@ -1,0 +1,178 @@
+// What readers write to: the vertices of a mesh in the order of the file, then (or between them)
+// polygons whose corners are numbers of vertices. Only this class looks vertices up and
+// triangulates.
+//
+// Vertices in memory are looked up at once. Beyond the share that a SpillSpace grants they are in
+// windows on disk (io/scene/mesh/vertex_windows.h): the corners are recorded, and when the mesh
+// ends a join brings their positions, polygon by polygon in the order of the file. The sink gets
+// the same triangles either way. The recording holds for each corner the number of its window, and
+// between polygons the names that change: so a file is read once, and a further index of a corner
+// (a texture coordinate, a colour) would be one more array of vertices with windows of its own.
+// Rejected: no recording, but running the reader's loop over the faces again (each reader must be
+// written for positions that it cannot see, and text is parsed twice).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "io/affine.h"
+#include "io/scene/mesh/mesh_reader.h"
+#include "io/scene/mesh/positions.h"
+#include "io/scene/mesh/vertex_marks.h"
+#include "io/scene/polygons/triangulate.h"
+#include "streaming/spill/spill_file.h"
+
+namespace svdag {
+
+// Reserved memory for points, kept from one mesh to the next: fresh pages cost more than the
+// triangles of a small mesh.
+class PointArray {
+ public:
+  Point* resize(uint64_t count, MemoryBudget* budget);
+  void release();
+  uint64_t bytes() const { return memory_.bytes(); }
+
+ private:
+  MemoryBudget::Reservation memory_;
+  std::unique_ptr<Point[]> points_;
+  uint64_t capacity_ = 0;
+};
+
+class MeshWriter {
+ public:
+  using Precision = Positions::Precision;
+
+  // `path`: of the scene, for errors. All must outlive the writer.
+  MeshWriter(const ReadOptions& options, const std::string& path, const TriangleSink& sink)
+      : options_(options), triangulator_(options.budget, path), out_(sink) {}
+
+  // --- Names: of the polygons from here on.
+
+  // Starts the next mesh: triangles are counted from 0 again.
+  void mesh(std::string_view name, bool undeformed = false);
+  void material(std::string_view name, std::optional<Colour> colour = {});
+  // Whether the mesh is the mirror image of another: two corners of each triangle then change
+  // places, so that the outside stays outside.
+  void mirrored(bool mirrored) { out_.mirrored(mirrored); }
+  // The distance of the quantised positions, 0 if they are not.
+  void quantisation(double step) {
+    is_counted_ |= step != 0;
+    out_.quantisation(step);
+  }
+
+  // --- Vertices.
+
+  // The vertices that follow replace all earlier ones: at most `max_count`, as float or double.
+  // `only_place`: there will be one place() with this transform.
+  void begin(Precision precision, uint64_t max_count, const Affine* only_place = nullptr);
+  void vertex(const Point& p) {
+    if (points_ != nullptr) {
+      points_[size_] = to_world_(p);
+    } else {
+      positions_->add(p);
+    }
+    ++size_;
+  }
+  uint64_t vertices() const { return size_; }
+
+  // Places all vertices, which were added, in the world; `step`: of their quantisation, as stored.
+  // Call it before the polygons, for every instance of the mesh. Returns false if these polygons
+  // were recorded: they have been drawn again.
+  bool place(const Affine& to_world, double step);
+
+  // --- Polygons: corners are numbers below vertices().
+
+  void triangle(uint64_t a, uint64_t b, uint64_t c) {
+    if (points_ != nullptr) return out_.add(points_[a], points_[b], points_[c]);
+    if (!positions_->spilled()) return out_.add(stored(a), stored(b), stored(c));
+    record(a);
+    record(b);
+    record(c);
+    record_end();
+  }
+  void corner(uint64_t i) {
+    if (points_ != nullptr) return triangulator_.corner(points_[i]);
+    if (!positions_->spilled()) return triangulator_.corner(stored(i));
+    record(i);
+  }
+  // Fewer than three corners give no triangle.
+  void end_polygon() {
+    if (recording_) return record_end();
+    triangulator_.finish(out_);
+  }
+  // A triangle without vertices, after begin_soup().
+  void add(const Point& a, const Point& b, const Point& c) { out_.add(a, b, c); }
+  void begin_soup() { end_mesh(); }
+
+  // Passes everything on.
+  void finish() {
+    draw_recorded();
+    out_.flush();
+  }
+  // After an Error of the reader: passes on the polygons that were recorded before it.
+  void finish_broken();
+
+ private:
+  Point stored(uint64_t i) const {
+    const Point p = (*positions_)[i];
+    return is_placed_ ? to_world_(p) : p;
+  }
+  bool fits(uint64_t bytes) const {
+    return options_.spill == nullptr || bytes <= options_.spill->share;
+  }
+  void end_mesh();
+  void start_recording();
+  void record(uint64_t i) {
+    if (!recording_) start_recording();
+    ++corners_;
+    if (marks_) return marks_->mark(i);
+    put_code(kFirstWindow + positions_->windows().record(i));
+  }
+  void record_end();
+  void record_name(uint64_t kind, std::string_view name, std::array<uint8_t, 4> more);
+  void put_code(uint64_t code);
+  void put_bytes(std::span<const std::byte> bytes);
+  void flush_codes();
+  void draw_recorded();
+  void draw_box();
+  void replay();
+
+  // A recording: for each corner kFirstWindow + the number of its window, kEnd after each polygon;
+  // kMesh and kMaterial with a name.
+  enum Code : uint64_t { kMesh, kMaterial, kEnd, kFirstWindow };
+
+  const ReadOptions& options_;
+  Triangulator triangulator_;
+  BatchWriter out_;
+  std::optional<Positions> positions_;  // as stored
+  PointArray placed_;
+  Point* points_ = nullptr;  // not null: all vertices, in the world
+  uint64_t size_ = 0;        // number of vertices
+  Affine to_world_ = {};
+  bool is_placed_ = false;   // place() was called
+  bool is_counted_ = false;  // the summary counts its triangles as undeformed or quantised
+
+  // Of spilled positions.
+  bool recording_ = false;
+  bool joined_ = false;               // the recording is complete: it can be drawn again
+  uint64_t corners_ = 0;              // of the polygon that is recorded
+  uint64_t triangles_ = 0;            // marked
+  std::optional<VertexMarks> marks_;  // only the box is wanted
+  std::optional<SpillWriter> codes_out_;
+  std::array<std::byte, 4096> codes_;  // not yet in codes_out_
+  size_t codes_size_ = 0;
+  OwnedStream codes_stream_;
+};
+
+using MeshReader = void (*)(const File& file, const ReadOptions& options, MeshWriter* out);
+
+// Runs a reader. The same Error, behind the same triangles, whether vertices fit in memory or not.
+void read_meshes(MeshReader reader, const File& file, const ReadOptions& options,
+                 const TriangleSink& sink);
+
+}  // namespace svdag
