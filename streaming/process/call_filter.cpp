@@ -28,8 +28,9 @@ constexpr long kAllowed[] = {
     SYS_futex,          SYS_sched_yield, SYS_rt_sigaction,  SYS_rt_sigreturn,
     SYS_rt_sigprocmask, SYS_close,       SYS_clock_gettime, SYS_lseek,
     SYS_fstat,          SYS_exit,        SYS_exit_group};
-// Calls of abort(). They fail with EPERM, so that abort() still ends the process with a crash.
-constexpr long kFailing[] = {SYS_getpid, SYS_gettid, SYS_tgkill};
+// These fail with EPERM. Calls of abort(), which so still ends the process with a crash; and the one with which free()
+// of glibc asks whether it may shrink a heap.
+constexpr long kFailing[] = {SYS_getpid, SYS_gettid, SYS_tgkill, SYS_openat};
 
 using Program = std::vector<sock_filter>;
 

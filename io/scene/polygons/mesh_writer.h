@@ -129,9 +129,19 @@ class MeshWriter {
   void start_recording();
   void record(uint64_t i) {
     if (!recording_) start_recording();
-    ++corners_;
-    if (marks_) return marks_->mark(i);
+    if (marks_) return mark(i);
     put_code(kFirstWindow + positions_->windows().record(i));
+  }
+  void mark(uint64_t i) {
+    if (corners_ == 2) {
+      for (const uint64_t earlier : first_two_) marks_->mark(earlier);
+    }
+    if (corners_ < 2) {
+      first_two_[corners_] = i;
+    } else {
+      marks_->mark(i);
+    }
+    ++corners_;
   }
   void record_end();
   void record_name(uint64_t kind, std::string_view name, std::array<uint8_t, 4> more);
@@ -160,7 +170,8 @@ class MeshWriter {
   // Of spilled positions.
   bool recording_ = false;
   bool joined_ = false;               // the recording is complete: it can be drawn again
-  uint64_t corners_ = 0;              // of the polygon that is recorded
+  uint64_t corners_ = 0;              // of the polygon that is marked
+  uint64_t first_two_[2] = {};        // its first corners: alone they are no triangle
   uint64_t triangles_ = 0;            // marked
   std::optional<VertexMarks> marks_;  // only the box is wanted
   std::optional<SpillWriter> codes_out_;

@@ -193,8 +193,8 @@ TEST(DracoHostile, ClaimsBeyondTheBytesAreRefusedWhateverTheBudget) {
 TEST(DracoHostile, ClaimsInsideTheBoundAreAMatterOfTheBudget) {
   if (kSanitized) GTEST_SKIP() << "a sanitizer needs address space";
   const std::string bytes =
-      claim(draco::MESH_EDGEBREAKER_ENCODING, {2'000'000, 4'000'000, 0, 4'000'000}) +
-      std::string(2000, '\0');
+      claim(draco::MESH_EDGEBREAKER_ENCODING, {20'000'000, 40'000'000, 0, 40'000'000}) +
+      std::string(20'000, '\0');
   for (const bool sandbox : {false, true})
     EXPECT_SVDAG_ERROR(decode(bytes, uint64_t(1) << 20, sandbox), ExitCode::kMemory,
                        "raise --memory");
