@@ -76,10 +76,11 @@ void describe_options(const ContentOptions& options, std::ostream* out) {
   if (bounds) *out << "bounds:" << coordinates(bounds->min) << coordinates(bounds->max) << '\n';
 }
 
-// The same. The files are described by their content, and colours follow from the layers.
+// The same. The files are described by their content, with those that allow_outside adds; colours
+// follow from the layers.
 void describe_scene(const SceneConfig& scene, std::ostream* out) {
-  [[maybe_unused]] const auto& [paths, names, skip_invalid, sandbox, allow_unmatched, transform, up,
-                                scale, colours, only] = scene;
+  [[maybe_unused]] const auto& [paths, names, skip_invalid, sandbox, allow_unmatched, allow_outside,
+                                transform, up, scale, colours, only] = scene;
   *out << "included parts: " << list(names.include) << '\n';
   *out << "excluded parts: " << list(names.exclude) << '\n';
   if (const Affine to_world = scene.to_world(); to_world != Affine())

@@ -7,6 +7,7 @@
 #include "io/scene/scene_formats.h"
 #include "streaming/error.h"
 #include "streaming/file/file.h"
+#include "streaming/file/file_folder.h"
 #include "streaming/process/interrupt.h"
 
 namespace svdag {
@@ -132,7 +133,9 @@ const File& Scene::content_of(const File& packed) const {
   const auto found = unpacked_.find(packed.path());
   if (found != unpacked_.end()) return found->second;
   File content = create_unpacked(packed.path(), spill_);
-  unpack_gzip(packed, &content);
+  const std::string folder = unpack_folder_of(spill_);
+  const uint64_t free = free_bytes_of(folder);
+  unpack_gzip(packed, &content, {folder, free - free / 16});  // other programs need some
   return unpacked_.emplace(packed.path(), std::move(content)).first->second;
 }
 
@@ -161,7 +164,8 @@ SceneCounts Scene::read(const TriangleSink& sink, MeshBox* box_alone) const {
                         spill_,
                         box_alone,
                         config_.sandbox,
-                        config_.colours ? &images_ : nullptr};
+                        config_.colours ? &images_ : nullptr,
+                        config_.allow_outside};
     if (config_.only) options.box_alone = nullptr;
     if (to_world == Affine()) {
       read_scene_file(detect_format(file), file, options, filtered);
@@ -220,7 +224,8 @@ void Scene::visit_files(const VisitFile& visit) const {
     visit(file);
     const SceneFormat& format = detect_format(file);
     if (format.visit_beside != nullptr)
-      format.visit_beside(content_of(file), budget_, config_.colours, visit);
+      format.visit_beside(content_of(file), {budget_, config_.colours, config_.allow_outside},
+                          visit);
   }
 }
 

@@ -26,6 +26,7 @@ struct SceneConfig {
   bool skip_invalid = false;       // drop triangles with NaN or infinity instead of failing
   bool sandbox = false;            // --sandbox: third-party decoders run in a limited child process
   bool allow_unmatched = false;    // --allow-empty: a pattern may match no name
+  bool allow_outside = false;      // --allow-outside: .mtl files and textures of an .obj file
   Affine transform = {};           // --transform
   Affine up = {};                  // --up: after `transform`
   double scale = 1;                // --scale: after `up`

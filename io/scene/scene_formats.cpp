@@ -33,15 +33,15 @@ bool begins_as_fbx(std::string_view start, bool is_named_stl) {
   return start.starts_with("Kaydara") && !is_named_stl;
 }
 
-void visit_mtl_files(const File& content, MemoryBudget*, bool colours, const VisitFile& visit) {
-  if (!colours) return;
-  for (const std::string& beside : mtl_files(content)) visit(File::open_read(beside));
+void visit_mtl_files(const File& content, const BesideOptions& options, const VisitFile& visit) {
+  if (!options.colours) return;
+  for (const std::string& beside : mtl_files(content, {options.budget, options.allow_outside}))
+    visit(File::open_read(beside));
 }
 
-void visit_gltf_files(const File& content, MemoryBudget* budget, bool colours,
-                      const VisitFile& visit) {
-  const GltfDocument document = load_gltf(content, budget, colours);
-  for (const File& buffer : GltfBuffers(document, budget).files()) visit(buffer);
+void visit_gltf_files(const File& content, const BesideOptions& options, const VisitFile& visit) {
+  const GltfDocument document = load_gltf(content, options.budget, options.colours);
+  for (const File& buffer : GltfBuffers(document, options.budget).files()) visit(buffer);
   for (const File& image : image_files(document)) visit(image);
 }
 

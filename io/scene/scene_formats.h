@@ -13,7 +13,12 @@ namespace svdag {
 
 // Files beside a scene file that determine its triangles; with `colours`, also their colours.
 using VisitFile = std::function<void(const File&)>;
-using VisitBeside = void (*)(const File& content, MemoryBudget* budget, bool colours,
+struct BesideOptions {
+  MemoryBudget* budget = nullptr;
+  bool colours = false;
+  bool allow_outside = false;  // as in ReadOptions
+};
+using VisitBeside = void (*)(const File& content, const BesideOptions& options,
                              const VisitFile& visit);
 
 struct SceneFormat {

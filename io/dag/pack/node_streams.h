@@ -24,6 +24,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -42,6 +43,14 @@ std::array<Stream, kBrickStreams> streams_of_bricks(std::span<const Brick> brick
 // The largest size of stream i, in bytes, of a chunk of `nodes` nodes.
 constexpr size_t max_stream_bytes(size_t i, size_t nodes) {
   return i < 3 ? nodes : 8 * nodes;
+}
+
+// No less than the bytes of a chunk of `nodes` nodes or bricks: its streams, and a KiB for what
+// zstd and the chunk add to each.
+constexpr uint64_t max_chunk_bytes(uint64_t nodes) {
+  uint64_t bytes = kNodeStreams * 1024;
+  for (size_t i = 0; i < kNodeStreams; ++i) bytes += max_stream_bytes(i, nodes);
+  return bytes;
 }
 
 // The nodes of a chunk.

@@ -130,7 +130,8 @@ class Unpacker {
     for (size_t i = 0; i < index_.size(); ++i) {
       const uint64_t at = header_.index_offset + i * sizeof(ChunkEntry);
       require(index_[i].offset == end && index_[i].bytes <= header_.index_offset - end &&
-                  index_[i].nodes > 0 && index_[i].nodes <= kChunkNodes,
+                  index_[i].nodes > 0 && index_[i].nodes <= kChunkNodes &&
+                  index_[i].bytes <= max_chunk_bytes(index_[i].nodes),
               "an impossible entry of the index", at);
       end += index_[i].bytes;
       nodes -= index_[i].nodes;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/byte_stream.h"
 #include "streaming/process/interrupt.h"
@@ -36,7 +37,7 @@ class Inflater {
   }
 
   // Inflates a member of the file from the stream's position on, and appends it to `out`.
-  void unpack_member(ByteStream* stream, File* out, uint64_t* size) {
+  void unpack_member(ByteStream* stream, File* out, uint64_t* size, const UnpackRoom& room) {
     inflateReset(&state_);
     for (int result = Z_OK; result != Z_STREAM_END;) {
       check_interrupt();
@@ -54,6 +55,12 @@ class Inflater {
           fail_input(stream->file().path(), "is damaged: its gzip data cannot be unpacked",
                      stream->offset() + bytes.size() - state_.avail_in);
         const size_t count = kOutput - state_.avail_out;
+        if (count > room.max_bytes - *size)
+          throw Error(ExitCode::kOutput,
+                      "has no room for the content of " + stream->file().path() +
+                          ", which is more than " + format_bytes(room.max_bytes) +
+                          ": give another folder by --scratch or TMPDIR",
+                      room.folder);
         out->write_at(*size, {output_.get(), count});
         *size += count;
       } while (state_.avail_out == 0 && result != Z_STREAM_END);
@@ -84,13 +91,13 @@ size_t unpack_start(const File& file, std::span<std::byte> out) {
   return Inflater().unpack_start(bytes, out);
 }
 
-void unpack_gzip(const File& file, File* out) {
+void unpack_gzip(const File& file, File* out, const UnpackRoom& room) {
   ByteStream stream(file);
   Inflater inflater;
   uint64_t size = 0;
-  inflater.unpack_member(&stream, out, &size);
+  inflater.unpack_member(&stream, out, &size, room);
   // As gzip does: further members are appended, anything else after a member is ignored.
-  while (begins_member(stream.peek(3))) inflater.unpack_member(&stream, out, &size);
+  while (begins_member(stream.peek(3))) inflater.unpack_member(&stream, out, &size, room);
 }
 
 }  // namespace svdag

@@ -6,6 +6,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 
@@ -19,7 +21,13 @@ bool is_gzip(const File& file);
 // The first bytes of the content, at most out.size(); returns their number. 0 for damaged data.
 size_t unpack_start(const File& file, std::span<std::byte> out);
 
-// Writes the content of `file` to `out`. Damaged data is an Error (kBadInput).
-void unpack_gzip(const File& file, File* out);
+struct UnpackRoom {
+  std::string folder;  // for errors
+  uint64_t max_bytes = std::numeric_limits<uint64_t>::max();
+};
+
+// Writes the content of `file` to `out`. Damaged data is an Error (kBadInput), more content than
+// there is room for one of kOutput: a small file may expand a thousandfold.
+void unpack_gzip(const File& file, File* out, const UnpackRoom& room = {});
 
 }  // namespace svdag

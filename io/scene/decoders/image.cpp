@@ -129,9 +129,13 @@ std::optional<ImageMean> ImageMeans::mean(const std::string& name, const Read& r
     known->second = mean_of_image({bytes, name, sandbox_}, budget_);
   } catch (const Error& error) {
     if (error.code() != ExitCode::kBadInput) throw;
-    notes_.push_back(error.what());
+    note(error.what());
   }
   return known->second;
+}
+
+void ImageMeans::note(const std::string& text) {
+  if (std::ranges::find(notes_, text) == notes_.end()) notes_.push_back(text);
 }
 
 std::optional<ImageMean> ImageMeans::mean_of_file(const std::string& path) {

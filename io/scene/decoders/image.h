@@ -61,8 +61,10 @@ class ImageMeans {
   std::vector<std::byte> bytes_of(const File& file, MemoryBudget::Reservation* memory) const;
 
   MemoryBudget* budget() const { return budget_; }
-  // "PATH: what is wrong", of each image without a mean.
+  // "PATH: what is wrong", of each image without a mean and each file that was left out.
   const std::vector<std::string>& notes() const { return notes_; }
+  // Adds one, once.
+  void note(const std::string& text);
 
  private:
   MemoryBudget* budget_;

@@ -6,12 +6,15 @@
 
 namespace svdag {
 
-File create_unpacked(const std::string& path, const SpillSpace* spill) {
-  const bool given = spill != nullptr && !spill->unpack_folder.empty();
+std::string unpack_folder_of(const SpillSpace* spill) {
+  if (spill != nullptr && !spill->unpack_folder.empty()) return spill->unpack_folder;
   std::error_code none;  // TMPDIR may name anything
-  const std::string folder =
-      given ? spill->unpack_folder : std::filesystem::temp_directory_path(none).string();
-  return File::create_anonymous(none ? "/tmp" : folder, path);
+  const std::string folder = std::filesystem::temp_directory_path(none).string();
+  return none ? "/tmp" : folder;
+}
+
+File create_unpacked(const std::string& path, const SpillSpace* spill) {
+  return File::create_anonymous(unpack_folder_of(spill), path);
 }
 
 void BatchWriter::mesh(std::string_view name, bool undeformed) {

@@ -59,7 +59,9 @@ struct SpillSpace {
   std::string unpack_folder = {};           // of decompressed files; empty: the temporary folder
 };
 
-// An anonymous file for decompressed data, with the path() of the compressed file.
+// The folder of files of decompressed data.
+std::string unpack_folder_of(const SpillSpace* spill);
+// An anonymous file in it, with the path() of the compressed file.
 File create_unpacked(const std::string& path, const SpillSpace* spill);
 
 // The result of reading a mesh for its box only.
@@ -81,6 +83,7 @@ struct ReadOptions {
   bool sandbox = false;
   // Not null: the colours of materials are wanted, though they need further files.
   ImageMeans* images = nullptr;
+  bool allow_outside = false;  // read materials and textures outside the folder of an .obj file
 
   // Whether the object `name`, which has no material, is selected.
   bool wants(const std::string& name) const {

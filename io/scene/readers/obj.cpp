@@ -7,7 +7,6 @@
 // included.
 #include <algorithm>
 #include <array>
-#include <map>
 #include <string>
 #include <string_view>
 
@@ -29,7 +28,8 @@ class ObjReader {
  public:
   ObjReader(const File& file, const ReadOptions& options, MeshWriter* out)
       : options_(options), stream_(file), scanner_(&stream_, {'#', true}), out_(*out) {
-    if (options.images != nullptr) materials_ = read_mtl(file);
+    if (options.images != nullptr)
+      materials_ = read_mtl(file, {options.budget, options.allow_outside, options.images});
     out_.begin(MeshWriter::Precision::kDouble, file.size());
   }
 
@@ -148,14 +148,14 @@ class ObjReader {
     const std::string& mesh = names.front();
     if (mesh != mesh_) out_.mesh(mesh);
     mesh_ = mesh;
-    const auto material = materials_.find(material_);
-    out_.material(material_, wanted_ && material != materials_.end()
+    const auto material = materials_.by_name.find(material_);
+    out_.material(material_, wanted_ && material != materials_.by_name.end()
                                  ? colour_of(material->second, options_.images)
                                  : std::nullopt);
   }
 
   const ReadOptions& options_;
-  std::map<std::string, MtlMaterial> materials_;
+  MtlMaterials materials_;
   ByteStream stream_;
   TextScanner scanner_;
   MeshWriter& out_;

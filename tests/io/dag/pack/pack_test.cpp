@@ -194,6 +194,33 @@ TEST_F(Pack, ADamagedChunkIsNamedByItsOffset) {
       "a chunk does not match its checksum (at byte " + std::to_string(sizeof(PackedHeader)) + ")");
 }
 
+// A hole in a file takes no disk, but it would take memory.
+TEST_F(Pack, AChunkLargerThanItsStreamsIsRefusedBeforeItIsRead) {
+  const std::string good = packed(plain(4, 20));
+  PackedHeader header;
+  std::memcpy(&header, good.data(), sizeof header);
+  ChunkEntry entry;
+  std::memcpy(&entry, good.data() + header.index_offset, sizeof entry);
+  const size_t hole = max_chunk_bytes(entry.nodes);
+  std::string bad = good;
+  bad.insert(sizeof header + entry.bytes, hole, '\0');
+  header.index_offset += hole;
+  std::memcpy(bad.data(), &header, sizeof header);
+  for (uint64_t i = 0; i < header.chunks; ++i) {
+    char* at = bad.data() + header.index_offset + i * sizeof entry;
+    std::memcpy(&entry, at, sizeof entry);
+    if (i == 0) {
+      entry.bytes += uint32_t(hole);
+    } else {
+      entry.offset += hole;
+    }
+    std::memcpy(at, &entry, sizeof entry);
+  }
+  repair_packed(&bad);
+  folder_.write("a.pack", bad);
+  EXPECT_SVDAG_ERROR(unpacked(), ExitCode::kBadInput, "an impossible entry of the index");
+}
+
 // A frame may hold the same streams in other bits.
 TEST_F(Pack, WithRepairedChecksumsAFlippedBitIsFoundOrChangesNothing) {
   const DagFile file = plain(4, 20);

@@ -93,6 +93,16 @@ TEST_F(Gzip, DamageIsAnError) {
   EXPECT_EQ(found, int((bytes.size() - 20 + 996) / 997));
 }
 
+// Zeros expand a thousandfold: the disk is not filled first.
+TEST_F(Gzip, ContentWithoutRoomIsAnErrorBeforeItIsWritten) {
+  const File bomb =
+      File::open_read(folder_.write("a.ply.gz", packed(std::string(5'000'000, '\0'))));
+  File out = File::create_anonymous(folder_.path());
+  EXPECT_SVDAG_ERROR(unpack_gzip(bomb, &out, {"/full", 1'000'000}), ExitCode::kOutput,
+                     "/full: has no room for the content of " + bomb.path());
+  EXPECT_LE(out.size(), 1'000'000U);
+}
+
 TEST_F(Gzip, ASceneIsReadAsIfUnpackedAndUnpackedOnce) {
   const std::string obj = "o a\nv 0 0 0\nv 1 0 0\nv 0 1 5\nf 1 2 3\n";
   MemoryBudget budget;

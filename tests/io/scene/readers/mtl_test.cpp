@@ -1,7 +1,9 @@
 #include "io/scene/readers/mtl.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/expect_error.h"
 #include "tests/io/scene/png_file.h"
 #include "tests/temp_folder.h"
 
@@ -21,13 +23,16 @@ class Mtl : public testing::Test {
   // Of material m.
   std::optional<Colour> colour(const std::string& statements) {
     folder_.write("a.mtl", "newmtl m\n" + statements);
-    const auto materials = read_mtl(File::open_read(folder_.file("a.obj")));
-    const auto found = materials.find("m");
-    return found == materials.end() ? std::nullopt : colour_of(found->second, &images_);
+    const auto materials = read_mtl(obj(), {&budget_, allow_outside_, &images_});
+    const auto found = materials.by_name.find("m");
+    return found == materials.by_name.end() ? std::nullopt : colour_of(found->second, &images_);
   }
+
+  File obj() const { return File::open_read(folder_.file("a.obj")); }
 
   TempFolder folder_;
   MemoryBudget budget_;
+  bool allow_outside_ = false;
   ImageMeans images_;
 };
 
@@ -73,8 +78,43 @@ TEST_F(Mtl, FilesAreThoseThatExist) {
   colour(
       "map_Kd maps/red wood.png\nmap_Kd missing.png\nnewmtl n\nmap_Kd grey.png\n"
       "newmtl o\nmap_Kd grey.png\n");
-  EXPECT_EQ(mtl_files(File::open_read(folder_.file("a.obj"))),
+  EXPECT_EQ(mtl_files(obj(), {&budget_}),
             (std::vector<std::string>{folder_.file("a.mtl"), folder_.file("grey.png")}));
+}
+
+// A scene is not trusted: it may not make the program read any file of the user.
+TEST_F(Mtl, FilesOutsideTheFolderAreReadOnlyOnRequest) {
+  TempFolder elsewhere;
+  elsewhere.write("red.png", one_texel(255, 0, 0));
+  elsewhere.write("b.mtl", "newmtl m\nKd 0 0 1\n");
+  std::filesystem::create_symlink(elsewhere.file("red.png"), folder_.file("link.png"));
+  const std::string up = "../" + std::filesystem::path(elsewhere.path()).filename().string();
+  folder_.write("a.obj", "mtllib a.mtl\nmtllib " + up + "/b.mtl\n");
+  for (const std::string& name :
+       {elsewhere.file("red.png"), up + "/red.png", std::string("link.png")}) {
+    allow_outside_ = false;
+    EXPECT_EQ(colour("map_Kd " + name + "\nKd 0 1 0\n"), (Colour{0, 255, 0})) << name;
+    EXPECT_THAT(images_.notes().back(), testing::HasSubstr("outside the folder of the scene"));
+    EXPECT_EQ(mtl_files(obj(), {&budget_}), std::vector{folder_.file("a.mtl")});
+    allow_outside_ = true;
+    EXPECT_EQ(colour("Kd 0 1 0\nmap_Kd " + name + "\n"), (Colour{0, 0, 0}))
+        << "times 0 0 1 of b.mtl";
+    EXPECT_EQ(mtl_files(obj(), {&budget_, true}).size(), 3u);
+  }
+}
+
+TEST_F(Mtl, IsReadOnceWithinItsMemory) {
+  std::string lines = "newmtl m\nKd 0 1 0\n";
+  for (int i = 0; i < 3000; ++i) lines += "newmtl " + std::to_string(i) + "\n";
+  folder_.write("a.obj", "mtllib a.mtl\nmtllib a.mtl\n");
+  EXPECT_EQ(colour(lines), (Colour{0, 255, 0}));
+  EXPECT_EQ(budget_.used(), 0U);
+  EXPECT_LT(budget_.peak(), 3002U * 200);
+  MemoryBudget little(100'000);
+  EXPECT_SVDAG_ERROR(read_mtl(obj(), {&little}), ExitCode::kMemory, "materials of .mtl files");
+  EXPECT_EQ(colour(std::string(100'000, 'x') + "\nKd 1 0 1\n#" + std::string(100'000, ' ')),
+            (Colour{255, 0, 255}))
+      << "lines of any length";
 }
 
 }  // namespace
