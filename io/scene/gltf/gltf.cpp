@@ -3,9 +3,8 @@
 // Stream order: nodes depth first; within a node its primitives, of each its instances, of each the
 // triangles. Only the positions of an indexed primitive are held (mesh_writer.h), and small
 // primitives that nodes share; indices, unindexed positions and instances pass through small
-// windows. Skins are not applied: a skinned mesh comes as stored, under its node's transform (only
-// joints would place it, 3.7.3.2); nor are morph targets. Such triangles are counted as undeformed.
-// Points and lines are skipped. A Draco primitive that also has plain data is read from the plain
+// windows. Skins and morph targets are applied (gltf_pose.h), except to Draco primitives, whose
+// triangles are counted as undeformed. Points and lines are skipped. A Draco primitive that also has plain data is read from the plain
 // data, which is exact.
 #include <algorithm>
 #include <array>
@@ -20,6 +19,7 @@
 #include "io/scene/gltf/gltf_images.h"
 #include "io/scene/gltf/gltf_kept.h"
 #include "io/scene/gltf/gltf_nodes.h"
+#include "io/scene/gltf/gltf_pose.h"
 #include "io/scene/polygons/mesh_writer.h"
 #include "streaming/error.h"
 
@@ -34,6 +34,7 @@ class GltfReader {
         buffers_(document_, options.budget, options.spill, options.sandbox),
         draco_(document_, &buffers_, options),
         kept_(options.budget),
+        pose_(document_, &buffers_, options.budget),
         out_(*out) {}
 
   void read() {
@@ -46,7 +47,7 @@ class GltfReader {
   void read_node(const JsonObject& node, const std::string& name, const Affine& world,
                  bool included) {
     const JsonObject mesh = document_.element("meshes", node.whole_number("mesh"));
-    out_.mesh(name, node.has("skin") || has_weights(node.has("weights") ? node : mesh));
+    out_.mesh(name, is_left_undeformed(node, mesh));
     for (const auto& value : mesh.array("primitives")) {
       const JsonObject primitive(value, document_.file->path());
       const uint64_t mode = primitive.whole_number("mode", kTriangles);
@@ -57,7 +58,9 @@ class GltfReader {
       if (!wants_material(material, included)) continue;
       out_.material(material, colour_of(primitive));
       InstanceStream instances(node, world, &buffers_);
-      if (const KeptPrimitive* kept = kept_.find(value)) {
+      if (pose_.moves(node, primitive) && !draco_.holds(primitive)) {
+        draw_posed(node, primitive, mode, world, &instances);
+      } else if (const KeptPrimitive* kept = kept_.find(value)) {
         draw_kept(*kept, mode, &instances);
       } else {
         read_primitive(value, primitive, mode, &instances);
@@ -100,11 +103,13 @@ class GltfReader {
     return !options_.names->excludes(PartKind::kMaterial, material) && (included || matched);
   }
 
-  // Whether morph targets affect the mesh: a node's weights override those of its mesh.
-  static bool has_weights(const JsonObject& object) {
-    const auto weights = object.array("weights");
-    return std::any_of(weights.begin(), weights.end(),
-                       [](const nlohmann::json& weight) { return weight != 0; });
+  // Whether the mesh has a primitive that a skin or morph targets move, but which is read as stored.
+  bool is_left_undeformed(const JsonObject& node, const JsonObject& mesh) const {
+    return std::ranges::any_of(mesh.array("primitives"), [&](const nlohmann::json& value) {
+      const JsonObject primitive(value, document_.file->path());
+      if (node.has("skin") && !GltfPose::is_skinned(node, primitive)) return true;
+      return draco_.holds(primitive) && pose_.moves(node, primitive);
+    });
   }
 
   // `key`: the JSON value behind `primitive`.
@@ -112,18 +117,27 @@ class GltfReader {
                       InstanceStream* instances) {
     if (const DracoPrimitive* draco = draco_.find(key))
       return draw_indexed(draco->positions, draco->indices, kTriangles, draco->step, instances);
-    const Accessor positions =
-        buffers_.accessor(primitive.object("attributes").whole_number("POSITION"), "VEC3");
-    if (positions.base.type == ComponentType::kUnsignedInt) {
-      fail_input(primitive.path(), "has positions of a component type that glTF does not allow");
-    }
+    const Accessor positions = positions_of(primitive);
     if (!primitive.has("indices")) return draw_soup(positions, mode, instances);
-    const Accessor indices = buffers_.accessor(primitive.whole_number("indices"), "SCALAR");
-    check_indices(indices);
-    check_count(mode, indices.count());
+    const Accessor indices = indices_of(primitive, mode);
     if (const KeptPrimitive* kept = kept_.keep_repeated(key, positions, indices))
       return draw_kept(*kept, mode, instances);
     draw_indexed(positions, indices, mode, 0, instances);
+  }
+
+  Accessor positions_of(const JsonObject& primitive) {
+    const Accessor positions =
+        buffers_.accessor(primitive.object("attributes").whole_number("POSITION"), "VEC3");
+    if (positions.base.type == ComponentType::kUnsignedInt)
+      fail_input(primitive.path(), "has positions of a component type that glTF does not allow");
+    return positions;
+  }
+
+  Accessor indices_of(const JsonObject& primitive, uint64_t mode) {
+    const Accessor indices = buffers_.accessor(primitive.whole_number("indices"), "SCALAR");
+    check_indices(indices);
+    check_count(mode, indices.count());
+    return indices;
   }
 
   auto add_vertex() {
@@ -131,6 +145,30 @@ class GltfReader {
   }
   auto add_triangle() {
     return [this](uint32_t a, uint32_t b, uint32_t c) { out_.triangle(a, b, c); };
+  }
+
+  // Draws a primitive that a skin or morph targets move. Skinned, it is in the world, once.
+  void draw_posed(const JsonObject& node, const JsonObject& primitive, uint64_t mode,
+                  const Affine& world, InstanceStream* instances) {
+    const Accessor positions = positions_of(primitive);
+    const auto add_vertices = [&] {
+      pose_.visit_vertices(node, primitive, positions, world, add_vertex());
+    };
+    const auto add_triangles = [&] {
+      if (primitive.has("indices")) {
+        const Accessor indices = indices_of(primitive, mode);
+        IndexStream corners(indices, positions.count());
+        return assemble(mode, indices.count(), corners, add_triangle());
+      }
+      check_count(mode, positions.count());
+      uint64_t next = 0;
+      auto corners = [&] { return next++; };
+      assemble(mode, positions.count(), corners,
+               [this](uint64_t a, uint64_t b, uint64_t c) { out_.triangle(a, b, c); });
+    };
+    InstanceStream once;
+    draw(MeshWriter::Precision::kDouble, positions.count(), 0,
+         GltfPose::is_skinned(node, primitive) ? &once : instances, add_vertices, add_triangles);
   }
 
   void draw_soup(const Accessor& positions, uint64_t mode, InstanceStream* instances) {
@@ -206,6 +244,7 @@ class GltfReader {
   GltfBuffers buffers_;
   DracoPrimitives draco_;
   KeptPrimitives kept_;
+  GltfPose pose_;
   MeshWriter& out_;
 };
 

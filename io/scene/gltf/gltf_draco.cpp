@@ -20,7 +20,7 @@ bool DracoPrimitives::has_data(uint64_t accessor) const {
   return document_.element("accessors", accessor).has("bufferView");
 }
 
-bool DracoPrimitives::is_draco(const JsonObject& primitive) const {
+bool DracoPrimitives::holds(const JsonObject& primitive) const {
   if (!primitive.extension(kDraco)) return false;
   return !has_data(primitive.object("attributes").whole_number("POSITION")) ||
          (primitive.has("indices") && !has_data(primitive.whole_number("indices")));
@@ -53,7 +53,7 @@ std::vector<DracoPrimitives::Packed> DracoPrimitives::pack_from(const nlohmann::
   auto next = std::upper_bound(in_order_.begin(), in_order_.end(), &primitive);
   try {
     for (; next != in_order_.end() && bytes < kChildBytes; ++next) {
-      if (unpacked_.contains(*next) || !is_draco(JsonObject(**next, document_.file->path())))
+      if (unpacked_.contains(*next) || !holds(JsonObject(**next, document_.file->path())))
         continue;
       packed.push_back(pack(**next));
       bytes += packed.back().bytes.size();
@@ -115,7 +115,7 @@ void DracoPrimitives::unpack(const std::vector<Packed>& packed) {
 const DracoPrimitive* DracoPrimitives::find(const nlohmann::json& primitive) {
   auto known = unpacked_.find(&primitive);
   if (known == unpacked_.end()) {
-    if (!is_draco(JsonObject(primitive, document_.file->path()))) return nullptr;
+    if (!holds(JsonObject(primitive, document_.file->path()))) return nullptr;
     unpack(pack_from(primitive));
     known = unpacked_.find(&primitive);
   }

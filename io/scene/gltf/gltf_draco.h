@@ -28,6 +28,8 @@ class DracoPrimitives {
   // The primitive that this JSON value describes, or null if it has plain data, which is exact, or
   // no Draco data.
   const DracoPrimitive* find(const nlohmann::json& primitive);
+  // Whether find() would decode it.
+  bool holds(const JsonObject& primitive) const;
 
  private:
   struct Unpacked {
@@ -43,7 +45,6 @@ class DracoPrimitives {
     bool normalized;
   };
 
-  bool is_draco(const JsonObject& primitive) const;
   bool has_data(uint64_t accessor) const;
   Packed pack(const nlohmann::json& primitive);
   std::vector<Packed> pack_from(const nlohmann::json& primitive);

@@ -31,7 +31,7 @@ void convert_elements(const ElementArray& array, const std::byte* in, size_t n, 
   }
 }
 
-// The loop above with a known number of components: SCALAR, VEC3, VEC4.
+// The loop above with a known number of components: SCALAR, VEC3, VEC4, MAT4.
 template <class Source, class T>
 void convert_all(const ElementArray& array, const std::byte* in, size_t n, T* out) {
   switch (array.components) {
@@ -39,6 +39,8 @@ void convert_all(const ElementArray& array, const std::byte* in, size_t n, T* ou
       return convert_elements<Source, 1>(array, in, n, out);
     case 3:
       return convert_elements<Source, 3>(array, in, n, out);
+    case 16:
+      return convert_elements<Source, 16>(array, in, n, out);
     default:
       return convert_elements<Source, 4>(array, in, n, out);
   }

@@ -31,6 +31,8 @@ class ElementStream {
   template <class T>
   size_t read(std::span<T> out);
 
+  static constexpr size_t kWindow = size_t(1) << 16;  // bytes
+
  private:
   explicit ElementStream(const ElementArray& array, const std::string* path);
   void refill();
@@ -39,8 +41,6 @@ class ElementStream {
   template <class T>
   void replace(uint64_t first, size_t n, T* out);
   void next_replacement();
-
-  static constexpr size_t kWindow = size_t(1) << 16;
 
   ElementArray array_;
   const std::string* path_;

@@ -44,11 +44,11 @@ class WindowBuffer : public std::streambuf {
 
 bool is_read(std::string_view key, bool images) {
   if (images && (key == "textures" || key == "images")) return true;
-  constexpr std::array<std::string_view, 10> kKeys = {
+  constexpr std::array<std::string_view, 11> kKeys = {
       "asset",       "scene",   "scenes",
       "nodes",       "meshes",  "accessors",
       "bufferViews", "buffers", "extensionsRequired",
-      "materials"};
+      "materials",   "skins"};
   return std::find(kKeys.begin(), kKeys.end(), key) != kKeys.end();
 }
 

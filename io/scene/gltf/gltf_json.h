@@ -1,5 +1,5 @@
 // Parses the JSON text of a glTF file into a tree of values, without members that are not read
-// (animations, skins, and images unless colours are wanted).
+// (animations, and images unless colours are wanted).
 //
 // The text is read through a window; the memory of the values is reserved in the budget. The tree
 // is built from the parser's events. Rejected: the parser's own callback filter, which searches

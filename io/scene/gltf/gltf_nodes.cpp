@@ -9,7 +9,6 @@
 namespace svdag {
 namespace {
 
-constexpr int kMaxDepth = 1000;
 constexpr double kNoise = 1e-5;  // in the last row of a matrix: of float inverses, for example
 
 // A quaternion that can be normalised: its squared length neither vanishes nor overflows.
@@ -17,27 +16,6 @@ void check_rotation(const Trs& trs, const std::string& path) {
   double n = 0;
   for (const double q : trs.rotation) n += q * q;
   if (!(std::isnormal(n))) fail_input(path, "has a node whose rotation is not a quaternion");
-}
-
-Affine local_transform(const JsonObject& node) {
-  std::array<double, 16> columns;
-  if (node.numbers("matrix", columns)) {
-    Affine a;
-    for (int r = 0; r < 3; ++r) {
-      for (int c = 0; c < 4; ++c) a.m[r][c] = columns[size_t(4 * c + r)];
-    }
-    for (const size_t c : {3u, 7u, 11u, 15u}) {
-      if (!(std::abs(columns[c] - (c == 15)) <= kNoise))
-        fail_input(node.path(), "has a node whose matrix is a projection");
-    }
-    return a;
-  }
-  Trs trs;
-  node.numbers("translation", trs.translation);
-  node.numbers("rotation", trs.rotation);
-  node.numbers("scale", trs.scale);
-  check_rotation(trs, node.path());
-  return trs.affine();
 }
 
 class Walk {
@@ -78,7 +56,7 @@ class Walk {
   void node(uint64_t index, const Affine& parent, bool chosen, int depth) {
     const JsonObject object = document_.element("nodes", index);
     if (reached_[size_t(index)]) fail(index, "is reached twice: the hierarchy must be a tree");
-    if (depth > kMaxDepth) fail(index, "is too deep in the hierarchy");
+    if (depth > kMaxNodeDepth) fail(index, "is too deep in the hierarchy");
     reached_[size_t(index)] = true;
     const std::string name = name_of_node(object);
     const bool included = options_.names->includes(PartKind::kObject, name);  // records a match
@@ -112,6 +90,29 @@ class Walk {
 };
 
 }  // namespace
+
+Affine affine_of_columns(const std::array<double, 16>& columns, const std::string& path) {
+  Affine a;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 4; ++c) a.m[r][c] = columns[size_t(4 * c + r)];
+  }
+  for (const size_t c : {3u, 7u, 11u, 15u}) {
+    if (!(std::abs(columns[c] - (c == 15)) <= kNoise))
+      fail_input(path, "has a node whose matrix is a projection");
+  }
+  return a;
+}
+
+Affine local_transform(const JsonObject& node) {
+  std::array<double, 16> columns;
+  if (node.numbers("matrix", columns)) return affine_of_columns(columns, node.path());
+  Trs trs;
+  node.numbers("translation", trs.translation);
+  node.numbers("rotation", trs.rotation);
+  node.numbers("scale", trs.scale);
+  check_rotation(trs, node.path());
+  return trs.affine();
+}
 
 Affine Trs::affine() const {
   const auto [x, y, z, w] = rotation;

@@ -27,6 +27,13 @@ struct Trs {
   Affine affine() const;
 };
 
+constexpr int kMaxNodeDepth = 1000;
+
+// A 4x4 matrix, column by column. Error (kBadInput): it is a projection.
+Affine affine_of_columns(const std::array<double, 16>& columns, const std::string& path);
+// The transform of a node into the space of its parent.
+Affine local_transform(const JsonObject& node);
+
 using NodeVisitor = std::function<void(const JsonObject& node, const std::string& name,
                                        const Affine& world, bool included)>;
 
@@ -34,7 +41,7 @@ using NodeVisitor = std::function<void(const JsonObject& node, const std::string
 // children. `name`: the node's, or its mesh's if the node has none; `included`: whether the node,
 // an ancestor or the file is included, by name or because everything is. The roots are those of the
 // default scene (`scene`, else the first; all roots without a scene). A node that is reached twice
-// (cycles too) or is deeper than 1000 levels is an Error.
+// (cycles too) or is deeper than kMaxNodeDepth is an Error.
 void visit_nodes(const GltfDocument& document, const ReadOptions& options,
                  const NodeVisitor& visit);
 
@@ -44,6 +51,8 @@ void visit_nodes(const GltfDocument& document, const ReadOptions& options,
 class InstanceStream {
  public:
   InstanceStream(const JsonObject& node, const Affine& world, GltfBuffers* buffers);
+  // One, in the world.
+  InstanceStream() = default;
 
   uint64_t count() const { return count_; }
   // The next instance's transform into the world; called count() times.
@@ -53,7 +62,7 @@ class InstanceStream {
   Affine world_;
   uint64_t count_ = 1;
   bool instanced_ = false;
-  const std::string* path_;
+  const std::string* path_ = nullptr;
   std::optional<ElementStream> translation_, rotation_, scale_;
 };
 
