@@ -80,11 +80,12 @@ void describe_options(const ContentOptions& options, std::ostream* out) {
 // follow from the layers.
 void describe_scene(const SceneConfig& scene, std::ostream* out) {
   [[maybe_unused]] const auto& [paths, names, skip_invalid, sandbox, allow_unmatched, allow_outside,
-                                transform, up, scale, colours, only] = scene;
+                                transform, up, scale, hidden, colours, only] = scene;
   *out << "included parts: " << list(names.include) << '\n';
   *out << "excluded parts: " << list(names.exclude) << '\n';
   if (const Affine to_world = scene.to_world(); to_world != Affine())
     *out << "transform: " << format_transform(to_world) << '\n';
+  if (hidden) *out << "hidden nodes: baked\n";
   *out << "invalid triangles: " << (skip_invalid ? "dropped" : "refused") << '\n';
 }
 

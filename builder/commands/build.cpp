@@ -95,6 +95,7 @@ std::string report_json(const BakeCommand& config, const BuildReport& r) {
                {"triangles_degenerate", r.split.degenerate},
                {"triangles_invalid", r.split.scene.invalid},
                {"triangles_undeformed", r.split.scene.undeformed},
+               {"left_out", left_out_json(r.split.scene.left_out)},
                {"patterns_unmatched", r.split.scene.unmatched},
                {"images_unread", r.split.scene.unread_images},
                {"largest_snap_voxels", r.split.largest_snap},

@@ -12,9 +12,21 @@ void print_scene_notes(const SceneCounts& counts) {
     std::printf("  no part of the scene matches %s\n", printable(pattern).c_str());
   for (const std::string& image : counts.unread_images)
     std::printf("  no colour from a texture: %s\n", printable(image).c_str());
+  for (size_t i = 0; i < kOmissionCount; ++i) {
+    if (counts.left_out[i] > 0)
+      std::printf("  %s %s\n", format_count(counts.left_out[i]).c_str(), kOmissions[i].text);
+  }
   if (counts.undeformed > 0)
     std::printf("  %s triangles are read as stored: skins and morph targets are not applied\n",
                 format_count(counts.undeformed).c_str());
+}
+
+std::map<std::string, uint64_t> left_out_json(const LeftOut& left_out) {
+  std::map<std::string, uint64_t> counts;
+  visit_left_out(left_out, [&](const char* name, uint64_t count) {
+    if (count > 0) counts[name] = count;
+  });
+  return counts;
 }
 
 }  // namespace svdag

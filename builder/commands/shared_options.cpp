@@ -72,6 +72,7 @@ void add_scene_options(CLI::App* app, SceneConfig* scene) {
   app->add_flag("--allow-empty", scene->allow_unmatched, "Accept a pattern that matches no name");
   app->add_flag("--allow-outside", scene->allow_outside,
                 "Read .mtl files and textures outside the folder of an .obj file, too");
+  app->add_flag("--hidden", scene->hidden, "Bake nodes that the file hides, too");
   app->add_flag("--skip-invalid", scene->skip_invalid,
                 "Drop triangles with NaN or infinite coordinates");
   app->add_flag(

@@ -55,6 +55,7 @@ void visit_count_fields(AnyCounts& counts, const Visit& visit) {
   visit("quantisation", counts.scene.quantisation);
   visit("invalid", counts.scene.invalid);
   visit("undeformed", counts.scene.undeformed);
+  visit_left_out(counts.scene.left_out, visit);
   visit("clipped", counts.clipped);
   visit("outside", counts.outside);
   visit("degenerate", counts.degenerate);

@@ -165,13 +165,15 @@ SceneCounts Scene::read(const TriangleSink& sink, MeshBox* box_alone) const {
                         box_alone,
                         config_.sandbox,
                         config_.colours ? &images_ : nullptr,
-                        config_.allow_outside};
+                        config_.allow_outside,
+                        config_.hidden};
     if (config_.only) options.box_alone = nullptr;
     if (to_world == Affine()) {
-      read_scene_file(detect_format(file), file, options, filtered);
+      counts.left_out += read_scene_file(detect_format(file), file, options, filtered);
     } else {
       options.box_alone = nullptr;  // it would hold coordinates of the file, not of the world
-      read_scene_file(detect_format(file), file, options, ToWorld(to_world, filtered));
+      counts.left_out +=
+          read_scene_file(detect_format(file), file, options, ToWorld(to_world, filtered));
     }
   }
   const bool allowed = config_.allow_unmatched;

@@ -30,6 +30,7 @@ struct SceneConfig {
   Affine transform = {};           // --transform
   Affine up = {};                  // --up: after `transform`
   double scale = 1;                // --scale: after `up`
+  bool hidden = false;             // --hidden: nodes that the file hides
   bool colours = false;            // of materials are read, and the files that hold them
   // For judges: if given, only the triangles of the part of this kind and name.
   std::optional<std::pair<PartKind, std::string>> only = {};
@@ -43,6 +44,7 @@ struct SceneCounts {
   double quantisation = 0;  // largest step that positions were stored in, in world units
   uint64_t invalid = 0;     // dropped: a coordinate was NaN or infinite
   uint64_t undeformed = 0;  // as stored, though a skin or morph targets deform their mesh
+  LeftOut left_out;         // by the readers
   std::vector<std::string> unmatched;      // "--include 'sky*'": with allow_unmatched
   std::vector<std::string> unread_images;  // "PATH: why": with colours
 };

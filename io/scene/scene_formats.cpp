@@ -161,12 +161,12 @@ const SceneFormat& detect_format(const File& file) {
                               "names");
 }
 
-void read_scene_file(const SceneFormat& format, const File& file, const ReadOptions& options,
-                     const TriangleSink& sink) {
+LeftOut read_scene_file(const SceneFormat& format, const File& file, const ReadOptions& options,
+                        const TriangleSink& sink) {
   if (format.read == nullptr)
     fail_input(file.path(), std::string("is ") + format.name +
                                 ", which this build of svdag cannot read" + format.alternative);
-  read_meshes(format.read, file, options, sink);
+  return read_meshes(format.read, file, options, sink);
 }
 
 std::vector<std::string> scene_endings() {

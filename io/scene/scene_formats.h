@@ -42,8 +42,8 @@ struct SceneFormat {
 const SceneFormat& detect_format(const File& file);
 
 // Reads `file`, of this format. An Error (kBadInput) if this build cannot.
-void read_scene_file(const SceneFormat& format, const File& file, const ReadOptions& options,
-                     const TriangleSink& sink);
+LeftOut read_scene_file(const SceneFormat& format, const File& file, const ReadOptions& options,
+                        const TriangleSink& sink);
 
 // ".ply" and so on, for the completion of file names.
 std::vector<std::string> scene_endings();

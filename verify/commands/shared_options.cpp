@@ -59,6 +59,7 @@ void add_scene(CLI::App* command, SceneConfig* scene) {
       ->type_name("PATTERN");
   command->add_flag("--allow-empty", scene->allow_unmatched,
                     "Accept a pattern that matches no name");
+  command->add_flag("--hidden", scene->hidden, "The bake has nodes that the file hides, too");
   command->add_flag("--skip-invalid", scene->skip_invalid,
                     "Drop triangles with NaN or infinity, as in the bake");
 }

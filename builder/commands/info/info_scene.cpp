@@ -92,6 +92,7 @@ void print_json(const InfoCommand& config, const Box& box, const SceneCounts& co
                {"triangles", stats.triangles},
                {"invalid", counts.invalid},
                {"undeformed", counts.undeformed},
+               {"left_out", left_out_json(counts.left_out)},
                {"bounds", bounds_json(box)},
                {"positions", stats.positions},
                {"repeated_corners", stats.repeated},

@@ -58,7 +58,8 @@ NpyArray read_npy_header(const File& file, uint64_t offset, uint64_t end) {
   stream.read(std::as_writable_bytes(std::span(header)));
   NpyArray array;
   const std::string_view type = header_value(header, "'descr'", file, offset);
-  if (type.size() < 5 || (type[1] != '<' && type[1] != '|')) return array;
+  if (type.size() < 5 || std::string_view("<>|").find(type[1]) == std::string_view::npos)
+    return array;
   uint32_t size = 0;
   const char* const type_end = type.data() + type.size();
   const auto [size_end, error] = std::from_chars(type.data() + 3, type_end, size);
@@ -66,6 +67,8 @@ NpyArray read_npy_header(const File& file, uint64_t offset, uint64_t end) {
   if (error != std::errc() || size == 0 || size_end == type_end || *size_end != type[0] ||
       !is_known)
     return array;
+  array.big_endian = type[1] == '>' && size > 1;
+  if (array.big_endian && type[2] == 'U') return array;
   array.kind = type[2];
   array.bytes = type[2] == 'U' ? 4 * uint64_t(size) : size;
   array.fortran_order = header_value(header, "'fortran_order'", file, offset).starts_with("True");
@@ -86,6 +89,7 @@ uint64_t read_integer(ByteStream* stream, const NpyArray& array) {
   uint64_t bits = 0;
   stream->read(std::as_writable_bytes(std::span(&bits, 1)).first(array.bytes));
   const int unused = 64 - 8 * int(array.bytes);
+  if (array.big_endian) bits = __builtin_bswap64(bits) >> unused;
   return array.kind == 'i' ? uint64_t(int64_t(bits << unused) >> unused) : bits;
 }
 

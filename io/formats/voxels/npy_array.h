@@ -17,6 +17,7 @@ struct NpyArray {
   char kind = 0;       // 'b' bool, 'u', 'i', 'f'; texts: 'U' of code points, 'S' of bytes; 0: of an
                        // unsupported type, other members are unset
   uint64_t bytes = 0;  // of an element
+  bool big_endian = false;
   bool fortran_order = false;
   std::vector<uint64_t> shape;
   uint64_t offset = 0, end = 0;

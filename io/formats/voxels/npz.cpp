@@ -9,6 +9,7 @@
 #include "io/formats/voxels/zip.h"
 #include "streaming/error.h"
 #include "streaming/file/byte_stream.h"
+#include "streaming/spill/work_array.h"
 
 namespace svdag {
 namespace {
@@ -90,12 +91,8 @@ void read_dense(const File& file, const NpyArray& array, const VoxelSink& sink) 
 
 // Reads the next number of an array of integers or floats.
 double read_number(ByteStream* stream, const NpyArray& array) {
-  if (array.kind == 'f' && array.bytes == 4) {
-    float number = 0;
-    stream->read(std::as_writable_bytes(std::span(&number, 1)));
-    return double(number);
-  }
   const uint64_t bits = read_integer(stream, array);
+  if (array.kind == 'f' && array.bytes == 4) return double(std::bit_cast<float>(uint32_t(bits)));
   if (array.kind == 'f') return std::bit_cast<double>(bits);
   return array.kind == 'i' ? double(int64_t(bits)) : double(bits);
 }
@@ -222,17 +219,21 @@ void write_npz(const VoxelWindow& window, const std::string& path) {
   zip.commit();
 }
 
-GridPlacement read_npz(const File& file, const VoxelSink& sink, LayerTable* layers) {
+GridPlacement read_npz(const File& archive, const VoxelSink& sink, LayerTable* layers) {
   std::vector<ZipEntry> entries;
   std::array<char, 6> start{};
-  file.read_some_at(0, std::as_writable_bytes(std::span(start)));
+  archive.read_some_at(0, std::as_writable_bytes(std::span(start)));
   const bool zipped = std::string_view(start.data(), 6) != kNpyMagic;
   if (zipped) {
-    entries = read_zip(file);
+    entries = read_zip(archive);
     std::erase_if(entries, [](const ZipEntry& entry) { return !entry.name.ends_with(".npy"); });
   } else {
-    entries.push_back({"array.npy", 0, file.size(), 0});
+    entries.push_back({"array.npy", 0, archive.size(), 0, 0, false});
   }
+  std::optional<File> inflated;
+  if (std::ranges::any_of(entries, &ZipEntry::is_deflated))
+    inflated = inflate_entries(archive, temporary_room(nullptr).folder, &entries);
+  const File& file = inflated ? *inflated : archive;
   GridPlacement place;
   VoxelArrayChoice choice(file);
   NpzLayerArrays layer_arrays;

@@ -1,3 +1,4 @@
+#include <charconv>
 #include <cstdio>
 #include <map>
 #include <optional>
@@ -37,20 +38,42 @@ Colour default_colour(uint64_t i) {
   return {channel(0), channel(1), channel(2)};
 }
 
+// A rotation by quarter turns, mirrored or not: axis a comes from axis from[a], backwards if flip[a].
+struct Turn {
+  std::array<uint8_t, 3> from{0, 1, 2};
+  std::array<bool, 3> flip{};
+
+  // This turn after `first`.
+  Turn after(const Turn& first) const {
+    Turn both;
+    for (size_t a = 0; a < 3; ++a) {
+      both.from[a] = first.from[from[a]];
+      both.flip[a] = flip[a] != first.flip[from[a]];
+    }
+    return both;
+  }
+};
+
 struct Model {
   std::array<uint32_t, 3> size;
   uint64_t offset, count;  // of its voxel records in the file
 };
 
-// A node of the scene graph: a translation (one child), a group (its children), or a shape (its
+// A node of the scene graph: a translation after a turn (one child), a group (its children), or a shape (its
 // models are the frames of an animation; only the first is read).
 struct SceneNode {
   Offset translation{};
   uint32_t layer = kNoLayer;
   bool hidden = false;
-  bool rotated = false;
+  Turn turn;
   std::vector<uint32_t> children, models;
   size_t visits = 0;  // number of nodes visited from this one on; 0: not counted
+};
+
+struct PlacedModel {
+  uint32_t model;
+  Offset corner;  // of its turned box
+  Turn turn;
 };
 
 // Reads the contents of one chunk; reading past its end is an Error.
@@ -115,20 +138,20 @@ class VoxReader {
     read_chunks();
     if (nodes_.empty()) {
       const size_t shown = std::min<size_t>(models_.size(), has_frames_ ? 1 : models_.size());
-      for (uint32_t i = 0; i < shown; ++i) place_model(i, middle_voxel(i));
+      for (uint32_t i = 0; i < shown; ++i) place_model(i, middle_voxel(i), {});
     } else {
       count_visits(0, 0);
-      place_node(0, {}, 0);
+      place_node(0, {}, {}, 0);
     }
     Offset low{};  // minimum, if below 0
-    for (const auto& [model, corner] : placed_) {
-      for (size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], corner[a]);
+    for (const PlacedModel& placed : placed_) {
+      for (size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], placed.corner[a]);
     }
     VoxelBatch batch(sink);
-    for (const auto& [model, corner] : placed_) {
+    for (const PlacedModel& placed : placed_) {
       Offset at;
-      for (size_t a = 0; a < 3; ++a) at[a] = corner[a] - low[a];
-      read_voxels(models_[model], at, &batch);
+      for (size_t a = 0; a < 3; ++a) at[a] = placed.corner[a] - low[a];
+      read_voxels(models_[placed.model], at, placed.turn, &batch);
     }
     batch.flush();
     const bool has_colours = palette_ || (layers_ != nullptr && layers_->layers.size() > 1);
@@ -217,15 +240,26 @@ class VoxReader {
     }
   }
 
-  // A rotation is an error only where a model is shown: place_node() rejects it.
   void read_frame(const Dictionary& frame, SceneNode* node) const {
-    if (const auto r = frame.find("_r"); r != frame.end()) node->rotated = r->second != "4";
+    if (const auto r = frame.find("_r"); r != frame.end()) node->turn = turn_of(r->second);
     const auto t = frame.find("_t");
     if (t == frame.end()) return;
     long long x, y, z;
     if (std::sscanf(t->second.c_str(), "%lld %lld %lld", &x, &y, &z) != 3)
       fail_input(file_.path(), "damaged .vox file: a translation is not three integers");
     node->translation = {x, y, z};
+  }
+
+  // Bits 0-1 and 2-3: the axes that the first two come from; bits 4-6: whether they are flipped.
+  Turn turn_of(const std::string& text) const {
+    unsigned bits = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), bits);
+    const unsigned x = bits & 3, y = bits >> 2 & 3;
+    if (error != std::errc() || end != text.data() + text.size() || bits > 127 || x == 3 ||
+        y == 3 || x == y)
+      fail_input(file_.path(), "damaged .vox file: a rotation is not one");
+    return {{uint8_t(x), uint8_t(y), uint8_t(3 - x - y)},
+            {(bits & 16) != 0, (bits & 32) != 0, (bits & 64) != 0}};
   }
 
   SceneNode& node_of(uint32_t id, int depth) {
@@ -250,43 +284,50 @@ class VoxReader {
   }
 
   // `reject_reason`: why models below this node cannot be read; null if they can.
-  void place_node(uint32_t id, const Offset& from, int depth, const char* reject_reason = nullptr) {
+  void place_node(uint32_t id, const Offset& from, const Turn& outer, int depth,
+                  const char* reject_reason = nullptr) {
     const SceneNode& node = node_of(id, depth);
     if (node.hidden || hidden_layers_.contains(node.layer)) return;
-    if (node.rotated) reject_reason = "has rotated models, which are not supported";
     Offset at = from;
     for (size_t a = 0; a < 3; ++a) {
-      const int64_t move = node.translation[a];
+      const int64_t move = node.translation[outer.from[a]];
       const bool far = move < -(int64_t(1) << kMaxLevels) || move > int64_t(1) << kMaxLevels;
       if (far) reject_reason = "has a model further than 1M voxels from 0";
-      if (!far) at[a] += move;
+      if (!far) at[a] += outer.flip[a] ? -move : move;
     }
-    for (const uint32_t child : node.children) place_node(child, at, depth + 1, reject_reason);
+    const Turn turn = outer.after(node.turn);
+    for (const uint32_t child : node.children)
+      place_node(child, at, turn, depth + 1, reject_reason);
     if (node.models.empty()) return;
     if (reject_reason != nullptr) fail_input(file_.path(), reject_reason);
-    place_model(node.models.front(), at);
+    place_model(node.models.front(), at, turn);
   }
 
-  // Places the model with its voxel size/2 at `middle`.
-  void place_model(uint32_t model, const Offset& middle) {
+  // Places the corner of voxel size/2 (rounded down) of the model at `middle`, turned around it.
+  void place_model(uint32_t model, const Offset& middle, const Turn& turn) {
     if (model >= models_.size()) fail_graph();
     voxels_ += models_[model].count;
     if (placed_.size() >= kMaxVisits || voxels_ > kMaxVoxels)
       fail_input(file_.path(), "shows more than 2^20 models or 2^32 voxels");
-    Offset corner = middle_voxel(model);
-    for (size_t a = 0; a < 3; ++a) corner[a] = middle[a] - corner[a];
-    placed_.emplace_back(model, corner);
+    const Offset half = middle_voxel(model);
+    Offset corner;
+    for (size_t a = 0; a < 3; ++a) {
+      const size_t b = turn.from[a];
+      corner[a] = middle[a] - (turn.flip[a] ? models_[model].size[b] - half[b] : half[b]);
+    }
+    placed_.push_back({model, corner, turn});
   }
 
-  void read_voxels(const Model& model, const Offset& at, VoxelBatch* batch) {
+  void read_voxels(const Model& model, const Offset& at, const Turn& turn, VoxelBatch* batch) {
     ByteStream stream(file_, model.offset, model.offset + 4 * model.count);
     while (!stream.at_end()) {
       std::array<uint8_t, 4> record;
       stream.read(std::as_writable_bytes(std::span(record)));
       Voxel voxel;
       for (size_t a = 0; a < 3; ++a) {
-        const int64_t x = at[a] + record[a];
-        if (record[a] >= model.size[a] || x >= int64_t(1) << kMaxLevels)
+        const size_t b = turn.from[a];
+        const int64_t x = at[a] + (turn.flip[a] ? model.size[b] - 1 - record[b] : record[b]);
+        if (record[b] >= model.size[b] || x >= int64_t(1) << kMaxLevels)
           fail_input(file_.path(), "a voxel is outside of its model or of 1M^3",
                      stream.offset() - 4);
         voxel[a] = uint32_t(x);
@@ -303,7 +344,7 @@ class VoxReader {
   std::map<uint32_t, SceneNode> nodes_;
   std::set<uint32_t> hidden_layers_;
   bool has_frames_ = false;  // PACK chunk: without a scene graph, models are animation frames
-  std::vector<std::pair<uint32_t, Offset>> placed_;  // models with their corners
+  std::vector<PlacedModel> placed_;
   uint64_t voxels_ = 0;                              // total of placed_
 };
 

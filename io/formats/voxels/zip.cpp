@@ -5,10 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <memory>
+#include <new>
 #include <optional>
 
 #include "streaming/error.h"
 #include "streaming/file/byte_stream.h"
+#include "streaming/file/file_folder.h"
+#include "streaming/process/interrupt.h"
 
 namespace svdag {
 namespace {
@@ -17,6 +21,7 @@ constexpr uint32_t kLocal = 0x04034b50, kCentral = 0x02014b50, kEnd = 0x06054b50
                    kEnd64 = 0x06064b50, kLocator64 = 0x07064b50;
 constexpr uint16_t kZipVersion = 45;  // the first with 64-bit sizes
 constexpr uint16_t kExtra64 = 1;
+constexpr uint16_t kStored = 0, kDeflated = 8;  // methods
 constexpr uint32_t kIn64BitField = 0xffffffff;
 constexpr uint16_t kDay = 1 << 5 | 1;  // 1 January 1980: makes archives reproducible
 
@@ -195,23 +200,87 @@ std::vector<ZipEntry> read_zip(const File& file) {
     ZipEntry entry{{reinterpret_cast<const char*>(text.data()), text.size()},
                    0,
                    0,
-                   directory.at<uint32_t>(at + 16)};
+                   directory.at<uint32_t>(at + 16),
+                   0,
+                   false};
     read_extra64(directory, at + 46 + name, extra, {&bytes, &packed, &local});
-    if (directory.at<uint16_t>(at + 10) != 0 || packed != bytes)
+    const uint16_t method = directory.at<uint16_t>(at + 10);
+    if ((method != kStored && method != kDeflated) || (method == kStored && packed != bytes))
       fail_input(file.path(), entry.name +
-                                  " is compressed, which is not supported: write the archive "
-                                  "with numpy.savez");
+                                  " is not compressed by deflate: write the archive with "
+                                  "numpy.savez or numpy.savez_compressed");
+    entry.is_deflated = method == kDeflated;
+    entry.packed = packed;
     if (local > size || size - local < 30)
       fail_input(file.path(), "damaged zip file: an entry is out of range", place.offset + at);
     const FileSlice head(file, local, 30);
     entry.offset = local + 30 + head.at<uint16_t>(26) + head.at<uint16_t>(28);
     entry.bytes = bytes;
-    if (head.at<uint32_t>(0) != kLocal || entry.offset > size || bytes > size - entry.offset)
+    if (head.at<uint32_t>(0) != kLocal || entry.offset > size || packed > size - entry.offset)
       fail_input(file.path(), "damaged zip file: an entry is out of range", local);
     entries.push_back(entry);
     at += 46 + name + extra + directory.at<uint16_t>(at + 32);
   }
   return entries;
+}
+
+namespace {
+
+// Inflates an entry to exactly entry.bytes bytes of `out` from `begin` on.
+void inflate_entry(const File& file, const ZipEntry& entry, uint64_t begin, File* out) {
+  z_stream state{};
+  if (inflateInit2(&state, -MAX_WBITS) != Z_OK) throw std::bad_alloc();
+  const std::unique_ptr<z_stream, decltype(&inflateEnd)> ends(&state, &inflateEnd);
+  ByteStream stream(file, entry.offset, entry.offset + entry.packed);
+  std::vector<std::byte> block(size_t(1) << 18);
+  uint64_t done = 0;
+  for (int result = Z_OK; result != Z_STREAM_END;) {
+    check_interrupt();
+    const auto bytes = stream.peek();
+    state.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(bytes.data()));  // only read
+    state.avail_in = uInt(bytes.size());
+    state.next_out = reinterpret_cast<Bytef*>(block.data());
+    state.avail_out = uInt(block.size());
+    result = inflate(&state, Z_NO_FLUSH);
+    const size_t count = block.size() - state.avail_out;
+    const bool stuck = count == 0 && state.avail_in == bytes.size();
+    if ((result != Z_OK && result != Z_STREAM_END) || stuck || count > entry.bytes - done) break;
+    out->write_at(begin + done, std::span(block).first(count));
+    done += count;
+    stream.skip(bytes.size() - state.avail_in);
+    if (result == Z_STREAM_END && done == entry.bytes) return;
+  }
+  fail_input(file.path(), "damaged zip file: " + entry.name + " cannot be unpacked", entry.offset);
+}
+
+}  // namespace
+
+File inflate_entries(const File& file, const std::string& folder, std::vector<ZipEntry>* entries) {
+  const uint64_t free = free_bytes_of(folder);
+  uint64_t left = free - free / 16;  // other programs need some
+  File out = File::create_anonymous(folder, file.path());
+  uint64_t end = 0;
+  for (ZipEntry& entry : *entries) {
+    if (entry.bytes > left)
+      throw Error(ExitCode::kOutput,
+                  "has no room for the content of " + file.path() + ": set TMPDIR to another folder",
+                  folder);
+    left -= entry.bytes;
+    if (entry.is_deflated) {
+      inflate_entry(file, entry, end, &out);
+    } else {
+      ByteStream stored(file, entry.offset, entry.offset + entry.bytes);
+      uint64_t at = end;
+      for (auto bytes = stored.peek(); !bytes.empty(); bytes = stored.peek()) {
+        out.write_at(at, bytes);
+        at += bytes.size();
+        stored.skip(bytes.size());
+      }
+    }
+    entry.offset = end;
+    end += entry.bytes;
+  }
+  return out;
 }
 
 void check_crc(const File& file, const ZipEntry& entry) {

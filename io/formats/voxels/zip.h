@@ -1,5 +1,5 @@
-// Reader and writer of zip archives with stored (uncompressed) entries and 64-bit sizes, the
-// container of `.npz` files.
+// Reader and writer of zip archives with 64-bit sizes, the container of `.npz` files. Written entries
+// are stored, read ones stored or deflated.
 #pragma once
 
 #include <cstdint>
@@ -40,15 +40,21 @@ class ZipWriter {
   uint64_t begin_ = 0;  // offset of the current entry's bytes
 };
 
-// A stored entry of an archive and the range of its bytes.
+// An entry of an archive and the range of its bytes.
 struct ZipEntry {
   std::string name;
   uint64_t offset, bytes;
-  uint32_t crc;  // from the directory
+  uint32_t crc;        // from the directory
+  uint64_t packed;     // size of its deflated bytes at `offset`
+  bool is_deflated;
 };
 
-// The entries of an archive. A compressed entry, or any other file, is an Error (kBadInput).
+// The entries of an archive. Any other file, or a method other than deflate, is an Error (kBadInput).
 std::vector<ZipEntry> read_zip(const File& file);
+
+// An anonymous file in the folder with the contents of these entries, whose places change to those
+// in it. Errors: kBadInput, and kOutput if the folder has no room for them.
+File inflate_entries(const File& file, const std::string& folder, std::vector<ZipEntry>* entries);
 
 // Reads the whole entry; a checksum mismatch is an Error (kBadInput).
 void check_crc(const File& file, const ZipEntry& entry);

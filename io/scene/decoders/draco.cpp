@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <memory>
 #include <type_traits>
 #include <vector>
 
@@ -28,15 +29,17 @@ enum DracoMessage : uint64_t { kDracoStep, kDracoPositions, kDracoIndices, kDrac
 
 // --- In the child.
 
-void decode_mesh(const DracoSource& source, const std::string& path, draco::Mesh* mesh) {
+// `as_integers`: quantised positions remain the integers that they were stored as.
+void decode_mesh(const DracoSource& source, const std::string& path, bool as_integers,
+                 draco::Mesh* mesh) {
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(source.bytes.data()), source.bytes.size());
   const auto type = draco::Decoder::GetEncodedGeometryType(&buffer);
   if (!type.ok()) fail_broken(path, type.status().error_msg_string());
   if (type.value() == draco::POINT_CLOUD)
     fail_input(path, "is a Draco point cloud, which has no triangles");
-  draco::Decoder decoder;  // keep positions as the integers that they were stored as
-  decoder.SetSkipAttributeTransform(draco::GeometryAttribute::POSITION);
+  draco::Decoder decoder;
+  if (as_integers) decoder.SetSkipAttributeTransform(draco::GeometryAttribute::POSITION);
   const draco::Status status = decoder.DecodeBufferToGeometry(&buffer, mesh);
   if (!status.ok()) fail_broken(path, status.error_msg_string());
 }
@@ -112,14 +115,20 @@ PositionForm form_of(const draco::PointAttribute& attribute, const DracoSource& 
           {transform.min_value(0), transform.min_value(1), transform.min_value(2)}};
 }
 
-void send_mesh(const draco::Mesh& mesh, const DracoSource& source, const std::string& path,
-               DecoderOutput* out) {
+const draco::PointAttribute& positions_of(const draco::Mesh& mesh, const DracoSource& source,
+                                          const std::string& path) {
   const draco::PointAttribute* attribute =
       source.position_id ? mesh.GetAttributeByUniqueId(
                                uint32_t(std::min<uint64_t>(*source.position_id, UINT32_MAX)))
                          : mesh.GetNamedAttribute(draco::GeometryAttribute::POSITION);
   if (attribute == nullptr || attribute->num_components() != 3)
     fail_broken(path, "it has no three-dimensional positions");
+  return *attribute;
+}
+
+void send_mesh(const draco::Mesh& mesh, const DracoSource& source, const std::string& path,
+               DecoderOutput* out) {
+  const draco::PointAttribute* attribute = &positions_of(mesh, source, path);
   const PositionForm form = form_of(*attribute, source, path);
   out->send_one(kDracoStep, form.step);
   send_positions(*attribute, form, path, out);
@@ -208,9 +217,15 @@ size_t decode_draco(std::span<const DracoSource> sources, const std::string& pat
         limits, path, sandbox,
         [&](DecoderOutput& out) {
           for (const DracoSource& each : sources) {
-            draco::Mesh mesh;
-            decode_mesh(each, path, &mesh);
-            send_mesh(mesh, each, path, &out);
+            auto mesh = std::make_unique<draco::Mesh>();
+            decode_mesh(each, path, true, mesh.get());
+            // As an integer of 32 bits, a normalised position has lost its type, which scales it.
+            const PositionForm form = form_of(positions_of(*mesh, each, path), each, path);
+            if (form.normalized && !form.quantised) {
+              mesh = std::make_unique<draco::Mesh>();
+              decode_mesh(each, path, false, mesh.get());
+            }
+            send_mesh(*mesh, each, path, &out);
           }
         },
         [&](const DecoderMessage& message) { messages.receive(message); });

@@ -4,8 +4,8 @@
 // triangles. Only the positions of an indexed primitive are held (mesh_writer.h), and small
 // primitives that nodes share; indices, unindexed positions and instances pass through small
 // windows. Skins and morph targets are applied (gltf_pose.h), except to Draco primitives, whose
-// triangles are counted as undeformed. Points and lines are skipped. A Draco primitive that also has plain data is read from the plain
-// data, which is exact.
+// triangles are counted as undeformed. Points and lines are skipped. A Draco primitive that also
+// has plain data is read from the plain data, which is exact.
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -37,10 +37,14 @@ class GltfReader {
         pose_(document_, &buffers_, options.budget),
         out_(*out) {}
 
-  void read() {
-    visit_nodes(document_, options_,
-                [this](const JsonObject& node, const std::string& name, const Affine& world,
-                       bool included) { read_node(node, name, world, included); });
+  LeftOut read() {
+    const uint64_t hidden =
+        visit_nodes(document_, options_,
+                    [this](const JsonObject& node, const std::string& name, const Affine& world,
+                           bool included) { read_node(node, name, world, included); });
+    left_out_.add(Omission::kHidden, hidden);
+    left_out_.add(Omission::kUnweighted, pose_.unweighted());
+    return left_out_;
   }
 
  private:
@@ -53,9 +57,16 @@ class GltfReader {
       const uint64_t mode = primitive.whole_number("mode", kTriangles);
       if (mode > kTriangleFan) fail_input(primitive.path(), "has a primitive of unknown mode");
       const JsonObject attributes = primitive.object("attributes");
-      if (mode < kTriangles || !attributes.has("POSITION")) continue;
+      if (!attributes.has("POSITION")) continue;
       const std::string material = material_of(primitive);
       if (!wants_material(material, included)) continue;
+      if (mode < kTriangles) {
+        left_out_.add(Omission::kPointsOrLines);
+        continue;
+      }
+      if (is_cut_out(primitive)) left_out_.add(Omission::kCutOuts);
+      if (options_.images != nullptr && attributes.has("COLOR_0"))
+        left_out_.add(Omission::kVertexColours);
       out_.material(material, colour_of(primitive));
       InstanceStream instances(node, world, &buffers_);
       if (pose_.moves(node, primitive) && !draco_.holds(primitive)) {
@@ -75,6 +86,15 @@ class GltfReader {
     // Materials are not needed: a scene may lack them.
     if (index >= document_.root().array("materials").size()) return "";
     return document_.element("materials", index).text("name");
+  }
+
+  // Whether its material has an alpha mask or is blended.
+  bool is_cut_out(const JsonObject& primitive) const {
+    if (!primitive.has("material")) return false;
+    const uint64_t index = primitive.whole_number("material");
+    if (index >= document_.root().array("materials").size()) return false;
+    const std::string& alpha = document_.element("materials", index).text("alphaMode");
+    return alpha == "MASK" || alpha == "BLEND";
   }
 
   // The base colour of the material, times the mean of its texture.
@@ -103,7 +123,8 @@ class GltfReader {
     return !options_.names->excludes(PartKind::kMaterial, material) && (included || matched);
   }
 
-  // Whether the mesh has a primitive that a skin or morph targets move, but which is read as stored.
+  // Whether the mesh has a primitive that a skin or morph targets move, but which is read as
+  // stored.
   bool is_left_undeformed(const JsonObject& node, const JsonObject& mesh) const {
     return std::ranges::any_of(mesh.array("primitives"), [&](const nlohmann::json& value) {
       const JsonObject primitive(value, document_.file->path());
@@ -233,10 +254,9 @@ class GltfReader {
     if (!whole) fail_input(*indices.path, "has vertex indices that are not unsigned integers");
   }
 
-  void check_count(uint64_t mode, uint64_t corners) const {
-    if (mode != kTriangles || corners % 3 == 0) return;
-    fail_input(document_.file->path(), "has a triangle list of " + std::to_string(corners) +
-                                           " corners, not a multiple of three");
+  // Corners after the last whole triangle are not drawn (3.7.2.1).
+  void check_count(uint64_t mode, uint64_t corners) {
+    if (mode == kTriangles) left_out_.add(Omission::kCornersLeft, corners % 3);
   }
 
   GltfDocument document_;
@@ -246,12 +266,13 @@ class GltfReader {
   KeptPrimitives kept_;
   GltfPose pose_;
   MeshWriter& out_;
+  LeftOut left_out_;
 };
 
 }  // namespace
 
-void read_gltf(const File& file, const ReadOptions& options, MeshWriter* out) {
-  GltfReader(file, options, out).read();
+LeftOut read_gltf(const File& file, const ReadOptions& options, MeshWriter* out) {
+  return GltfReader(file, options, out).read();
 }
 
 }  // namespace svdag

@@ -152,7 +152,10 @@ GltfBuffers::View GltfBuffers::unpacked_view(uint64_t index, const JsonObject& m
 
 GltfBuffers::View GltfBuffers::view(uint64_t index) {
   const JsonObject object = document_.element("bufferViews", index);
-  const auto meshopt = object.extension("EXT_meshopt_compression");
+  std::optional<JsonObject> meshopt;
+  for (const char* name : kMeshoptExtensions) {
+    if (!meshopt) meshopt = object.extension(name);
+  }
   // Without the library, a file may have uncompressed data as well.
   return meshopt && has_meshopt() ? unpacked_view(index, *meshopt) : view_of(object, index);
 }

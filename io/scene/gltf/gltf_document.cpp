@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 
 #include "io/scene/decoders/draco.h"
@@ -13,6 +14,15 @@ namespace svdag {
 namespace {
 
 using nlohmann::json;
+
+// Some programs write 1.0 for 1.
+std::optional<uint64_t> whole(const json& value) {
+  if (value.is_number_unsigned()) return value.get<uint64_t>();
+  if (!value.is_number_float()) return {};
+  const double number = value.get<double>();
+  const bool fits = number >= 0 && number < 0x1p53 && number == std::floor(number);
+  return fits ? std::optional(uint64_t(number)) : std::nullopt;
+}
 
 constexpr uint32_t kJsonChunk = 0x4E4F534A;
 constexpr uint32_t kBinChunk = 0x004E4942;
@@ -57,7 +67,7 @@ void load_glb(GltfDocument* document, bool images) {
 
 bool supported(const std::string& extension) {
   if (extension == "KHR_draco_mesh_compression") return has_draco();
-  if (extension == "EXT_meshopt_compression") return has_meshopt();
+  if (is_meshopt_extension(extension)) return has_meshopt();
   constexpr std::array<std::string_view, 11> kKnown = {
       "KHR_mesh_quantization", "EXT_mesh_gpu_instancing", "KHR_texture_transform",
       "KHR_texture_basisu",    "EXT_texture_webp",        "EXT_texture_avif",
@@ -106,13 +116,15 @@ void JsonObject::fail(const char* key, const char* expected) const {
 uint64_t JsonObject::whole_number(const char* key, std::optional<uint64_t> fallback) const {
   const json* value = find(key);
   if (value == nullptr && fallback) return *fallback;
-  if (value == nullptr || !value->is_number_unsigned()) fail(key, "a whole number");
-  return value->get<uint64_t>();
+  const auto number = value == nullptr ? std::nullopt : whole(*value);
+  if (!number) fail(key, "a whole number");
+  return *number;
 }
 
 uint64_t JsonObject::index(const json& element, const char* key) const {
-  if (!element.is_number_unsigned()) fail(key, "an array of whole numbers");
-  return element.get<uint64_t>();
+  const auto number = whole(element);
+  if (!number) fail(key, "an array of whole numbers");
+  return *number;
 }
 
 bool JsonObject::flag(const char* key) const {

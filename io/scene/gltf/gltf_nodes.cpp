@@ -18,9 +18,9 @@ void check_rotation(const Trs& trs, const std::string& path) {
   if (!(std::isnormal(n))) fail_input(path, "has a node whose rotation is not a quaternion");
 }
 
-class Walk {
+class NodeWalk {
  public:
-  Walk(const GltfDocument& document, const ReadOptions& options, const NodeVisitor& visit)
+  NodeWalk(const GltfDocument& document, const ReadOptions& options, const NodeVisitor& visit)
       : document_(document),
         options_(options),
         visit_(visit),
@@ -30,6 +30,8 @@ class Walk {
     const JsonObject scene = document_.element("scenes", index);
     for (const auto& root : scene.array("nodes")) start(scene.index(root, "nodes"));
   }
+
+  uint64_t hidden() const { return hidden_; }
 
   // Without a scene: every node without a parent. A cycle has no such node and is never reached.
   void all_roots() {
@@ -44,7 +46,7 @@ class Walk {
     for (uint64_t i = 0; i < reached_.size(); ++i) {
       if (!is_child[size_t(i)]) start(i);
     }
-    if (excluded_ == 0 && std::find(reached_.begin(), reached_.end(), false) != reached_.end()) {
+    if (skipped_ == 0 && std::find(reached_.begin(), reached_.end(), false) != reached_.end()) {
       fail_input(document_.file->path(), "has nodes that are their own ancestors");
     }
   }
@@ -61,7 +63,12 @@ class Walk {
     const std::string name = name_of_node(object);
     const bool included = options_.names->includes(PartKind::kObject, name);  // records a match
     if (options_.names->excludes(PartKind::kObject, name)) {
-      ++excluded_;
+      ++skipped_;
+      return;
+    }
+    if (is_hidden(object)) {
+      ++hidden_;
+      ++skipped_;
       return;
     }
     chosen = chosen || included;
@@ -70,6 +77,12 @@ class Walk {
     for (const auto& child : object.array("children")) {
       node(object.index(child, "children"), world, chosen, depth + 1);
     }
+  }
+
+  bool is_hidden(const JsonObject& node) const {
+    if (options_.hidden) return false;
+    const auto visibility = node.extension("KHR_node_visibility");
+    return visibility && visibility->has("visible") && !visibility->flag("visible");
   }
 
   std::string name_of_node(const JsonObject& node) const {
@@ -86,7 +99,8 @@ class Walk {
   const ReadOptions& options_;
   const NodeVisitor& visit_;
   std::vector<bool> reached_;
-  uint64_t excluded_ = 0;
+  uint64_t skipped_ = 0;  // with all below them
+  uint64_t hidden_ = 0;   // of these, by the file
 };
 
 }  // namespace
@@ -131,12 +145,16 @@ Affine Trs::affine() const {
   return a;
 }
 
-void visit_nodes(const GltfDocument& document, const ReadOptions& options,
-                 const NodeVisitor& visit) {
+uint64_t visit_nodes(const GltfDocument& document, const ReadOptions& options,
+                     const NodeVisitor& visit) {
   const JsonObject root = document.root();
-  Walk walk(document, options, visit);
-  if (root.array("scenes").empty()) return walk.all_roots();
-  walk.scene(root.whole_number("scene", 0));
+  NodeWalk walk(document, options, visit);
+  if (root.array("scenes").empty()) {
+    walk.all_roots();
+  } else {
+    walk.scene(root.whole_number("scene", 0));
+  }
+  return walk.hidden();
 }
 
 InstanceStream::InstanceStream(const JsonObject& node, const Affine& world, GltfBuffers* buffers)

@@ -24,7 +24,7 @@ int hex_digit(char c) {
   return -1;
 }
 
-std::string percent_decode(std::string_view uri, const std::string& path) {
+std::string percent_decode(std::string_view uri) {
   std::string text;
   for (size_t i = 0; i < uri.size(); ++i) {
     if (uri[i] != '%') {
@@ -33,9 +33,9 @@ std::string percent_decode(std::string_view uri, const std::string& path) {
     }
     const int high = i + 2 < uri.size() ? hex_digit(uri[i + 1]) : -1;
     const int low = i + 2 < uri.size() ? hex_digit(uri[i + 2]) : -1;
-    if (high < 0 || low < 0) fail_input(path, "has the broken URI " + shown(uri));
-    text += char(high * 16 + low);
-    i += 2;
+    const bool is_escape = high >= 0 && low >= 0;  // Blender before 3.5 wrote bare ones
+    text += is_escape ? char(high * 16 + low) : '%';
+    i += is_escape ? 2 : 0;
   }
   return text;
 }
@@ -94,7 +94,7 @@ std::vector<std::byte> decode_data_uri(std::string_view uri, const std::string& 
 }
 
 File open_beside(const std::string& scene_path, std::string_view uri, const std::string& kind) {
-  const std::string text = percent_decode(uri, scene_path);
+  const std::string text = percent_decode(uri);
   const std::string refers = "refers to the " + kind + " " + shown(uri);
   const bool leaves = text.empty() || text.front() == '/' || has_scheme(text) ||
                       has_parent_part(text) || text.find('\0') != std::string::npos;

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "io/colour.h"
+#include "io/scene/mesh/left_out.h"
 #include "io/scene/mesh/name_filter.h"
 #include "io/triangle.h"
 #include "streaming/file/file.h"
@@ -84,6 +85,7 @@ struct ReadOptions {
   // Not null: the colours of materials are wanted, though they need further files.
   ImageMeans* images = nullptr;
   bool allow_outside = false;  // read materials and textures outside the folder of an .obj file
+  bool hidden = false;         // read nodes that the file hides
 
   // Whether the object `name`, which has no material, is selected.
   bool wants(const std::string& name) const {
@@ -95,18 +97,18 @@ struct ReadOptions {
 
 class MeshWriter;  // io/scene/polygons/mesh_writer.h
 
-void read_ply(const File& file, const ReadOptions& options, MeshWriter* out);
-void read_stl(const File& file, const ReadOptions& options, MeshWriter* out);
-void read_obj(const File& file, const ReadOptions& options, MeshWriter* out);
-void read_off(const File& file, const ReadOptions& options, MeshWriter* out);
-void read_gltf(const File& file, const ReadOptions& options, MeshWriter* out);  // and GLB
-void read_draco(const File& file, const ReadOptions& options, MeshWriter* out);
-void read_openmesh(const File& file, const ReadOptions& options, MeshWriter* out);  // .om
+LeftOut read_ply(const File& file, const ReadOptions& options, MeshWriter* out);
+LeftOut read_stl(const File& file, const ReadOptions& options, MeshWriter* out);
+LeftOut read_obj(const File& file, const ReadOptions& options, MeshWriter* out);
+LeftOut read_off(const File& file, const ReadOptions& options, MeshWriter* out);
+LeftOut read_gltf(const File& file, const ReadOptions& options, MeshWriter* out);  // and GLB
+LeftOut read_draco(const File& file, const ReadOptions& options, MeshWriter* out);
+LeftOut read_openmesh(const File& file, const ReadOptions& options, MeshWriter* out);  // .om
 // With Assimp.
-void read_fbx(const File& file, const ReadOptions& options, MeshWriter* out);
-void read_collada(const File& file, const ReadOptions& options, MeshWriter* out);
-void read_3mf(const File& file, const ReadOptions& options, MeshWriter* out);
-void read_3ds(const File& file, const ReadOptions& options, MeshWriter* out);
+LeftOut read_fbx(const File& file, const ReadOptions& options, MeshWriter* out);
+LeftOut read_collada(const File& file, const ReadOptions& options, MeshWriter* out);
+LeftOut read_3mf(const File& file, const ReadOptions& options, MeshWriter* out);
+LeftOut read_3ds(const File& file, const ReadOptions& options, MeshWriter* out);
 
 // Collects triangles and passes them on in batches of up to kBatch.
 class BatchWriter {

@@ -51,16 +51,18 @@ class CodeReader {
   const std::byte *here_ = nullptr, *end_ = nullptr;
 };
 
-void read_once(MeshReader reader, const File& file, const ReadOptions& options,
-               const TriangleSink& sink) {
+LeftOut read_once(MeshReader reader, const File& file, const ReadOptions& options,
+                  const TriangleSink& sink) {
   MeshWriter out(options, file.path(), sink);
+  LeftOut left_out;
   try {
-    reader(file, options, &out);
+    left_out = reader(file, options, &out);
   } catch (const Error& error) {
     if (error.code() == ExitCode::kBadInput) out.finish_broken();
     throw;
   }
   out.finish();
+  return left_out;
 }
 
 }  // namespace
@@ -248,8 +250,8 @@ void MeshWriter::replay() {
   }
 }
 
-void read_meshes(MeshReader reader, const File& file, const ReadOptions& options,
-                 const TriangleSink& sink) {
+LeftOut read_meshes(MeshReader reader, const File& file, const ReadOptions& options,
+                    const TriangleSink& sink) {
   if (options.box_alone == nullptr || options.spill == nullptr)
     return read_once(reader, file, options, sink);
   const MeshBox before = *options.box_alone;
@@ -265,7 +267,7 @@ void read_meshes(MeshReader reader, const File& file, const ReadOptions& options
   *options.box_alone = before;
   ReadOptions again = options;
   again.box_alone = nullptr;
-  read_once(reader, file, again, [&](const TriangleBatch& batch) {
+  return read_once(reader, file, again, [&](const TriangleBatch& batch) {
     const uint64_t known = std::min<uint64_t>(passed, batch.triangles.size());
     passed -= known;
     if (known == batch.triangles.size()) return;

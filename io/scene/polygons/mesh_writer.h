@@ -180,10 +180,10 @@ class MeshWriter {
   OwnedStream codes_stream_;
 };
 
-using MeshReader = void (*)(const File& file, const ReadOptions& options, MeshWriter* out);
+using MeshReader = LeftOut (*)(const File& file, const ReadOptions& options, MeshWriter* out);
 
 // Runs a reader. The same Error, behind the same triangles, whether vertices fit in memory or not.
-void read_meshes(MeshReader reader, const File& file, const ReadOptions& options,
-                 const TriangleSink& sink);
+LeftOut read_meshes(MeshReader reader, const File& file, const ReadOptions& options,
+                    const TriangleSink& sink);
 
 }  // namespace svdag

@@ -16,6 +16,7 @@
 #include <assimp/material.h>
 #include <assimp/scene.h>
 
+#include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cstring>
 #include <optional>
@@ -35,6 +36,7 @@ struct MeshHead {
   uint8_t undeformed = 0;
   uint8_t has_colour = 0;
   uint8_t is_mirrored = 0;
+  uint8_t has_lines = 0;  // or points
   Colour colour;
   uint64_t vertices = 0;
 };
@@ -95,8 +97,10 @@ class Sender {
       colour.reset();
     }
     const bool undeformed = mesh.mNumBones > 0 || mesh.mNumAnimMeshes > 0;
-    const MeshHead head{undeformed, colour.has_value(), is_mirror(to_world),
-                        colour.value_or(Colour()), mesh.mNumVertices};
+    const bool has_lines =
+        (mesh.mPrimitiveTypes & (aiPrimitiveType_POINT | aiPrimitiveType_LINE)) != 0;
+    const MeshHead head{undeformed, colour.has_value(),        is_mirror(to_world),
+                        has_lines,  colour.value_or(Colour()), mesh.mNumVertices};
     out_.send_one(kMeshHead, head);
     out_.send_text(kMeshNames, material + names);
     DecodedMeshSender out(&out_);
@@ -130,6 +134,47 @@ Affine up_axis_to_y(const aiScene& scene) {
   return parse_up((sign < 0 ? "-" : "") + std::string(1, "xyz"[axis]));
 }
 
+void append_utf8(uint32_t c, std::string* out) {
+  const auto put = [&](uint32_t byte) { out->push_back(char(byte)); };
+  if (c < 0x80) return put(c);
+  if (c >= 0x10000) put(0xF0 | c >> 18), put(0x80 | (c >> 12 & 0x3F));
+  if (c >= 0x800 && c < 0x10000) put(0xE0 | c >> 12);
+  if (c >= 0x800) put(0x80 | (c >> 6 & 0x3F));
+  if (c < 0x800) put(0xC0 | c >> 6);
+  put(0x80 | (c & 0x3F));
+}
+
+// Text in UTF-8 of text in UTF-16 with a byte order mark; other text is returned as it is.
+std::string utf8_text(std::span<const std::byte> bytes) {
+  const auto at = [&](size_t i) { return uint32_t(bytes[i]); };
+  const bool big = bytes.size() > 1 && at(0) == 0xFE && at(1) == 0xFF;
+  if (!big && !(bytes.size() > 1 && at(0) == 0xFF && at(1) == 0xFE))
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+  const auto unit = [&](size_t i) { return at(i + big) | at(i + !big) << 8; };
+  std::string text;
+  for (size_t i = 2; i + 1 < bytes.size(); i += 2) {
+    uint32_t c = unit(i);
+    const bool pair = c >= 0xD800 && c < 0xDC00 && i + 3 < bytes.size();
+    if (pair) c = 0x10000 + ((c - 0xD800) << 10) + (unit(i += 2) & 0x3FF);
+    append_utf8(c, &text);
+  }
+  return text;
+}
+
+// Without blanks between a tag and a number: Assimp takes "<color> 1 0 0 1</color>" for an error.
+std::string without_leading_blanks(const std::string& text) {
+  std::string tight;
+  tight.reserve(text.size());
+  for (size_t i = 0; i < text.size(); ++i) {
+    tight += text[i];
+    if (text[i] != '>') continue;
+    const size_t next = std::min(text.find_first_not_of(" \t\r\n", i + 1), text.size() - 1);
+    if ((text[next] >= '0' && text[next] <= '9') || text[next] == '-' || text[next] == '.')
+      i = next - 1;
+  }
+  return tight;
+}
+
 struct AssimpFormat {
   std::string name;
   const char* hint;  // Assimp chooses its reader by it
@@ -140,6 +185,11 @@ void decode_scene(const File& file, std::span<const std::byte> bytes, const Assi
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
   const aiScene* scene = nullptr;
+  std::string text;
+  if (format.name == "COLLADA") {
+    text = without_leading_blanks(utf8_text(bytes));
+    bytes = std::as_bytes(std::span(text));
+  }
   try {
     scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, format.hint);
   } catch (const std::bad_alloc&) {
@@ -159,6 +209,8 @@ class Receiver {
  public:
   Receiver(const ReadOptions& options, MeshWriter* out)
       : options_(options), out_(*out), mesh_(out) {}
+
+  const LeftOut& left_out() const { return left_out_; }
 
   void take(const DecoderMessage& message) {
     if (message.kind() == kMeshHead) {
@@ -186,6 +238,7 @@ class Receiver {
     }
     wanted_ = included && !excluded;
     if (!wanted_) return;
+    if (head_.has_lines != 0) left_out_.add(Omission::kPointsOrLines);
     mesh_.begin(head_.vertices);
     out_.mirrored(head_.is_mirrored != 0);
     out_.mesh(name, head_.undeformed != 0);
@@ -196,11 +249,12 @@ class Receiver {
   MeshWriter& out_;
   DecodedMeshReceiver mesh_;
   MeshHead head_;
+  LeftOut left_out_;
   bool wanted_ = false;
 };
 
-void read_with_assimp(const File& file, const AssimpFormat& format, const ReadOptions& options,
-                      MeshWriter* out) {
+LeftOut read_with_assimp(const File& file, const AssimpFormat& format, const ReadOptions& options,
+                         MeshWriter* out) {
   const auto memory = options.budget->reserve(file.size(), (format.name + " files").c_str());
   std::vector<std::byte> bytes(size_t(file.size()));
   file.read_at(0, bytes);
@@ -209,21 +263,22 @@ void read_with_assimp(const File& file, const AssimpFormat& format, const ReadOp
       decoder_limits(bytes.size(), *options.budget), file.path(), options.sandbox,
       [&](DecoderOutput& decoder) { decode_scene(file, bytes, format, &decoder); },
       [&](const DecoderMessage& message) { receiver.take(message); });
+  return receiver.left_out();
 }
 
 }  // namespace
 
-void read_fbx(const File& file, const ReadOptions& options, MeshWriter* out) {
-  read_with_assimp(file, {"FBX", "fbx"}, options, out);
+LeftOut read_fbx(const File& file, const ReadOptions& options, MeshWriter* out) {
+  return read_with_assimp(file, {"FBX", "fbx"}, options, out);
 }
-void read_collada(const File& file, const ReadOptions& options, MeshWriter* out) {
-  read_with_assimp(file, {"COLLADA", "dae"}, options, out);
+LeftOut read_collada(const File& file, const ReadOptions& options, MeshWriter* out) {
+  return read_with_assimp(file, {"COLLADA", "dae"}, options, out);
 }
-void read_3mf(const File& file, const ReadOptions& options, MeshWriter* out) {
-  read_with_assimp(file, {"3MF", "3mf"}, options, out);
+LeftOut read_3mf(const File& file, const ReadOptions& options, MeshWriter* out) {
+  return read_with_assimp(file, {"3MF", "3mf"}, options, out);
 }
-void read_3ds(const File& file, const ReadOptions& options, MeshWriter* out) {
-  read_with_assimp(file, {"3DS", "3ds"}, options, out);
+LeftOut read_3ds(const File& file, const ReadOptions& options, MeshWriter* out) {
+  return read_with_assimp(file, {"3DS", "3ds"}, options, out);
 }
 
 }  // namespace svdag

@@ -8,8 +8,8 @@
 
 namespace svdag {
 
-void read_draco(const File& file, const ReadOptions& options, MeshWriter* out) {
-  if (!options.wants("")) return;
+LeftOut read_draco(const File& file, const ReadOptions& options, MeshWriter* out) {
+  if (!options.wants("")) return {};
   const auto memory = options.budget->reserve(file.size(), "Draco files");
   std::vector<std::byte> bytes(size_t(file.size()));
   file.read_at(0, bytes);
@@ -29,6 +29,7 @@ void read_draco(const File& file, const ReadOptions& options, MeshWriter* out) {
       }};
   const DracoSource source{bytes};
   decode_draco({&source, 1}, file.path(), *options.budget, options.sandbox, receiver);
+  return {};
 }
 
 }  // namespace svdag

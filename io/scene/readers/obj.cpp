@@ -1,10 +1,11 @@
 // Wavefront OBJ: polygons and groups, in one pass.
 //
 // A face may use the vertices that precede it, counted from 1, or backwards from -1. Texture
-// coordinates and normals are skipped; free-form surfaces are rejected, because they
-// would be missing from the scene. A face belongs to the last `o`, to all names of the last `g`
-// and to the last `usemtl`: it is selected if none of these is excluded and one of them is
-// included.
+// coordinates and normals are skipped; free-form curves and surfaces, lines and points
+// are counted. Unknown statements are an Error: what they define would be missing. Zero bytes may
+// follow the last line (ZBrush), but not hide lines. A face
+// belongs to the last `o`, to all names of the last `g` and to the last `usemtl`: it is selected if
+// none of these is excluded and one of them is included.
 #include <algorithm>
 #include <array>
 #include <string>
@@ -18,27 +19,44 @@
 namespace svdag {
 namespace {
 
-// Statements that define no surface, or only its appearance.
+// Statements that define no shape, or only its appearance.
 constexpr std::array<std::string_view, 27> kSkipped = {
-    "vt",     "vn",     "s",     "l",        "p",          "mtllib",    "vp",    "mg",    "lod",
-    "usemap", "maplib", "bevel", "c_interp", "d_interp",   "deg",       "bmat",  "step",  "cstype",
-    "curv",   "curv2",  "parm",  "end",      "shadow_obj", "trace_obj", "ctech", "stech", "sp"};
+    "vt",       "vn",       "vw",   "s",   "mtllib", "vp",         "mg",        "lod",   "usemap",
+    "maplib",   "bevel",    "t",    "deg", "bmat",   "step",       "cstype",    "parm",  "end",
+    "c_interp", "d_interp", "hole", "con", "trim",   "shadow_obj", "trace_obj", "ctech", "stech"};
+constexpr std::array<std::string_view, 2> kPointsAndLines = {"l", "p"};
+constexpr std::array<std::string_view, 5> kFreeForm = {"curv", "curv2", "surf", "sp", "scrv"};
+constexpr uint64_t kMaxZeros = 16;  // at the end of a file
+
+// Where the zero bytes at the end of the file begin.
+uint64_t end_of_text(const File& file) {
+  std::array<char, kMaxZeros> tail;
+  uint64_t end = file.size();
+  const uint64_t from = end - std::min(end, kMaxZeros);
+  file.read_at(from, std::as_writable_bytes(std::span(tail).first(size_t(end - from))));
+  while (end > from && tail[size_t(end - 1 - from)] == '\0') --end;
+  return end > from && tail[size_t(end - 1 - from)] == '\n' ? end : file.size();
+}
 
 class ObjReader {
  public:
   ObjReader(const File& file, const ReadOptions& options, MeshWriter* out)
-      : options_(options), stream_(file), scanner_(&stream_, {'#', true}), out_(*out) {
+      : options_(options),
+        stream_(file, 0, end_of_text(file)),
+        scanner_(&stream_, {'#', true}),
+        out_(*out) {
     if (options.images != nullptr)
       materials_ = read_mtl(file, {options.budget, options.allow_outside, options.images});
     out_.begin(MeshWriter::Precision::kDouble, file.size());
   }
 
-  void read() {
+  LeftOut read() {
     choose();
     while (!scanner_.at_end()) {
       if (!read_plain_line()) read_line();
       scanner_.next_line();
     }
+    return left_out_;
   }
 
  private:
@@ -84,14 +102,20 @@ class ObjReader {
     } else if (statement == "usemtl") {
       material_ = scanner_.rest_of_line();
       choose();
-    } else if (std::find(kSkipped.begin(), kSkipped.end(), statement) == kSkipped.end()) {
-      refuse(statement);
+    } else {
+      count_skipped(statement);
     }
   }
 
-  [[noreturn]] void refuse(std::string_view statement) const {
-    scanner_.fail("has a statement \"" + std::string(statement.substr(0, 40)) +
-                  "\", which svdag does not read");
+  void count_skipped(std::string_view statement) {
+    const auto is_in = [&](const auto& list) {
+      return std::ranges::find(list, statement) != list.end();
+    };
+    if (is_in(kSkipped)) return;
+    if (!is_in(kPointsAndLines) && !is_in(kFreeForm))
+      scanner_.fail("has a statement \"" + std::string(statement.substr(0, 40)) +
+                    "\", which svdag does not read");
+    left_out_.add(is_in(kFreeForm) ? Omission::kFreeForm : Omission::kPointsOrLines);
   }
 
   // What follows x, y, z (a weight, colours) is skipped.
@@ -164,12 +188,13 @@ class ObjReader {
   std::vector<std::string> groups_;
   std::string mesh_, material_;
   bool wanted_ = true;
+  LeftOut left_out_;
 };
 
 }  // namespace
 
-void read_obj(const File& file, const ReadOptions& options, MeshWriter* out) {
-  ObjReader(file, options, out).read();
+LeftOut read_obj(const File& file, const ReadOptions& options, MeshWriter* out) {
+  return ObjReader(file, options, out).read();
 }
 
 }  // namespace svdag

@@ -89,8 +89,9 @@ class OffReader {
 
 }  // namespace
 
-void read_off(const File& file, const ReadOptions& options, MeshWriter* out) {
+LeftOut read_off(const File& file, const ReadOptions& options, MeshWriter* out) {
   if (options.wants("")) OffReader(file, out).read();
+  return {};
 }
 
 }  // namespace svdag

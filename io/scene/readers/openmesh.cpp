@@ -106,8 +106,8 @@ void decode_om(const File& file, std::span<const std::byte> bytes, const OmHeade
 
 }  // namespace
 
-void read_openmesh(const File& file, const ReadOptions& options, MeshWriter* out) {
-  if (!options.wants("")) return;
+LeftOut read_openmesh(const File& file, const ReadOptions& options, MeshWriter* out) {
+  if (!options.wants("")) return {};
   const OmHeader header = read_header(file);
   const auto memory = options.budget->reserve(
       2 * file.size() + (header.vertices + header.faces) * kBytesPerElement, "OpenMesh files");
@@ -121,6 +121,7 @@ void read_openmesh(const File& file, const ReadOptions& options, MeshWriter* out
       limits, file.path(), options.sandbox,
       [&](DecoderOutput& decoder) { decode_om(file, bytes, header, &decoder); },
       [&](const DecoderMessage& message) { receiver.receive(message); });
+  return {};
 }
 
 }  // namespace svdag

@@ -133,8 +133,8 @@ class PlyBody {
 
 }  // namespace
 
-void read_ply(const File& file, const ReadOptions& options, MeshWriter* out) {
-  if (!options.wants("")) return;
+LeftOut read_ply(const File& file, const ReadOptions& options, MeshWriter* out) {
+  if (!options.wants("")) return {};
   ByteStream stream(file);
   const PlyHeader header = read_ply_header(&stream);
   const PlyPlace body{stream.offset(), header.lines + 1};
@@ -143,6 +143,12 @@ void read_ply(const File& file, const ReadOptions& options, MeshWriter* out) {
   } else {
     PlyBody<PlyBinaryValues>(file, header, out).read(body);
   }
+  LeftOut left_out;
+  left_out.add(Omission::kHeaderLines, header.unknown_lines);
+  for (const PlyElement& element : header.elements) {
+    if (element.name == "edge" && element.count > 0) left_out.add(Omission::kPointsOrLines);
+  }
+  return left_out;
 }
 
 }  // namespace svdag

@@ -56,7 +56,7 @@ class HeaderParser {
       } else if (keyword == "property") {
         add_property(words);
       } else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {
-        fail("has a header line that begins with \"" + keyword.substr(0, 40) + "\"");
+        ++header_.unknown_lines;
       }
     }
     if (!has_format) fail("has a header without \"format\"");

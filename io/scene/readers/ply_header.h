@@ -41,7 +41,8 @@ struct PlyElement {
 struct PlyHeader {
   PlyFormat format = PlyFormat::kAscii;
   std::vector<PlyElement> elements;
-  uint64_t lines = 0;  // of the header; the body begins in the next
+  uint64_t lines = 0;          // of the header; the body begins in the next
+  uint64_t unknown_lines = 0;  // of these, skipped
 };
 
 // Reads the header and leaves `stream` at the first byte of the body.

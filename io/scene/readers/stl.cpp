@@ -1,8 +1,10 @@
 // STL (3D Systems 1989): binary and text.
 //
 // A file is binary if its size matches its count of triangles, whatever it begins with: many
-// binary files begin with "solid", too. Fewer bytes than one triangle may follow the last one (a
-// line end, padding); with more, the count may be wrong, and the file is rejected.
+// binary files begin with "solid", too. Other bytes may follow the last triangle; a multiple of a
+// triangle's may be triangles that the count lacks, and the file is rejected.
+// In text, words may follow a keyword and its numbers, "end loop" is "endloop", and the last
+// "endsolid" may be missing. A facet that is not complete is an Error.
 // The normals and the attribute bytes are ignored. Solids of a text file have names, which serve as
 // mesh names.
 #include <array>
@@ -65,15 +67,18 @@ class TextReader {
   TextReader(const File& file, const ReadOptions& options, MeshWriter* out)
       : options_(options), stream_(file), scanner_(&stream_, {}), out_(*out) {}
 
-  void read() {
+  LeftOut read() {
+    LeftOut left_out;
     while (!scanner_.at_end()) {
       expect("solid");
       const std::string name(scanner_.rest_of_line());
       out_.mesh(name);
       const bool wanted = options_.wants(name);
       while (next_is_facet()) read_facet(wanted);
+      if (!ended_) left_out.add(Omission::kNoEnd);
       scanner_.next_line();  // the name again
     }
+    return left_out;
   }
 
  private:
@@ -81,22 +86,40 @@ class TextReader {
     if (scanner_.at_end()) scanner_.fail("ends within a solid");
     return scanner_.word();
   }
+  // "endloop", also of "end loop".
+  std::string next_keyword() {
+    std::string word(next_word());
+    if (same(word, "end")) word += next_word();
+    return word;
+  }
   static bool same(std::string_view found, std::string_view wanted) {
     return std::equal(found.begin(), found.end(), wanted.begin(), wanted.end(), [](char a, char b) {
       return std::tolower(static_cast<unsigned char>(a)) == b;
     });
   }
-  void expect(const char* wanted) { check(next_word(), wanted); }
+  // Words after the keyword before are skipped, up to the end of their line.
+  void expect(const char* wanted) {
+    if (scanner_.at_line_end()) return check(next_keyword(), wanted);
+    const std::string word = next_keyword();
+    if (same(word, wanted)) return;
+    scanner_.next_line();
+    check(next_keyword(), wanted);
+  }
   void check(std::string_view found, const char* wanted) const {
     if (!same(found, wanted))
       scanner_.fail(std::string("has no \"") + wanted + "\" where it should");
   }
   // "facet" or the end of the solid.
   bool next_is_facet() {
-    const std::string_view found = next_word();
-    if (same(found, "endsolid")) return false;
-    check(found, "facet");
-    return true;
+    for (bool in_line = !scanner_.at_line_end();; in_line = false) {
+      ended_ = !scanner_.at_end();
+      if (!ended_) return false;
+      const std::string found = next_keyword();
+      if (same(found, "facet")) return true;
+      if (same(found, "endsolid")) return false;
+      if (!in_line) check(found, "facet");
+      scanner_.next_line();
+    }
   }
   void read_facet(bool wanted) {
     expect("normal");
@@ -117,19 +140,22 @@ class TextReader {
   ByteStream stream_;
   TextScanner scanner_;
   MeshWriter& out_;
+  bool ended_ = true;  // the last solid, by "endsolid"
 };
 
 }  // namespace
 
-void read_stl(const File& file, const ReadOptions& options, MeshWriter* out) {
+LeftOut read_stl(const File& file, const ReadOptions& options, MeshWriter* out) {
   const uint64_t size = file.size();
   const uint64_t count = size < kBinaryHeader ? 0 : binary_count(file);
   const uint64_t expected = kBinaryHeader + kRecord * count;
-  const bool padded = count > 0 && size > expected && size - expected < kRecord;
+  const bool padded = count > 0 && size > expected && (size - expected) % kRecord != 0;
+  LeftOut left_out;
   if (size != expected && begins_as_text(file)) {
-    TextReader(file, options, out).read();
+    left_out = TextReader(file, options, out).read();
   } else if (size == expected || padded) {
     if (options.wants("")) read_binary(file, count, out);
+    if (size - expected >= kRecord) left_out.add(Omission::kBytesAfter, size - expected);
   } else if (size < kBinaryHeader) {
     fail_input(file.path(), "is too short for an STL file");
   } else {
@@ -137,6 +163,7 @@ void read_stl(const File& file, const ReadOptions& options, MeshWriter* out) {
                                 std::to_string(expected) + " bytes, but it has " +
                                 std::to_string(size));
   }
+  return left_out;
 }
 
 }  // namespace svdag

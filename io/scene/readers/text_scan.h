@@ -34,6 +34,8 @@ class TextScanner {
   TextScanner(ByteStream* stream, Syntax syntax, uint64_t line = 1)
       : stream_(stream), syntax_(syntax), line_(line) {
     refill();
+    if (line == 1 && (visible().starts_with("\xFF\xFE") || visible().starts_with("\xFE\xFF")))
+      fail("is UTF-16 text: convert it to UTF-8");
     if (line == 1 && visible().starts_with(kByteOrderMark)) here_ += kByteOrderMark.size();
   }
 

@@ -155,10 +155,10 @@ def vox_model(voxels, size):
         b"XYZI", struct.pack("<I", len(voxels)) + b"".join(bytes([*map(int, v), 79][:4]) for v in voxels))
 
 
-def vox(*models, places=None, hidden=(), hidden_layers=(), rotated=(), hidden_shapes=(), frames=1, pack=True,
+def vox(*models, places=None, hidden=(), hidden_layers=(), turns=None, hidden_shapes=(), frames=1, pack=True,
         palette=bytes(1024)):
     """models: (voxels, size), colour 79 unless voxels have a fourth number; places: the translation _t of each, or None: no scene graph; each model has its own
-    layer; hidden, hidden_layers, rotated, hidden_shapes: indices into places; frames: number of models per shape,
+    layer; turns: {index into places: byte _r}; hidden, hidden_layers, hidden_shapes: indices into places; frames: number of models per shape,
     its own first; pack: writes the number of models, which without a scene graph makes them frames of an animation; palette: None: no
     chunk."""
     body = chunk(b"PACK", struct.pack("<I", len(models))) if pack else b""
@@ -171,7 +171,7 @@ def vox(*models, places=None, hidden=(), hidden_layers=(), rotated=(), hidden_sh
         for i, place in enumerate(places):
             attributes = dictionary(_name="part", **({"_hidden": "1"} if i in hidden else {}))
             body += chunk(b"nTRN", struct.pack("<I", 2 + 2 * i) + attributes + struct.pack(
-                "<Iiii", 3 + 2 * i, -1, i, 1) + dictionary(_r="8" if i in rotated else "4", _t="{} {} {}".format(*place)))
+                "<Iiii", 3 + 2 * i, -1, i, 1) + dictionary(_r=str((turns or {}).get(i, 4)), _t="{} {} {}".format(*place)))
             shown = b"".join(struct.pack("<I", (i + f) % len(models)) + dictionary(_f=str(f)) for f in range(frames))
             body += chunk(b"nSHP", struct.pack("<I", 3 + 2 * i) + (
                 dictionary(_hidden="1") if i in hidden_shapes else none) + struct.pack("<I", frames) + shown)

@@ -85,7 +85,7 @@ TEST(Obj, IndicesThatPointNowhereAreRefusedWithTheirLine) {
 TEST(Obj, GarbageIsRefused) {
   for (const char* line : {"v 1 2", "v 1 2 x", "v 1 2 3x", "v 1 2 +-3", "f 1 2 x", "f 1 2 3x",
                            "f 1/a 2 3", "f 1 2 9999999999999999999999", "f 1.5 2 3", "f 1 2 /3",
-                           "surf 0 1 0 1 1 2 3 4", "fx 1 2 3", "\x01"}) {
+                           "fx 1 2 3", "\x01"}) {
     EXPECT_NE(refusal(read_obj, std::string(kVertices) + line + "\n").find("(line 5)"),
               std::string::npos)
         << line;
@@ -101,6 +101,8 @@ TEST(Obj, ZerosAreRefusedInWhatIsSkippedToo) {
       const std::string start = std::string(kVertices) + line + hole;
       EXPECT_NE(refusal(read_obj, start + "f 1 2 3\nf 1 2 4\n"), "") << line << size;
       EXPECT_NE(refusal(read_obj, start + " b\nf 1 2 4\n"), "") << line << size;
+      // A few may follow the last line: some programs end a file so.
+      if (*line == '\0' && size <= 16) continue;
       EXPECT_NE(refusal(read_obj, start), "") << line << size;
     }
   }

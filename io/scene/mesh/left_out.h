@@ -1,0 +1,70 @@
+// What a reader left out of a scene, or took otherwise than a viewer shows it: counts by kind.
+// Every reader returns one, so that nothing is left out silently. The summary of a command prints a
+// line for each kind, a report has its name.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+
+namespace svdag {
+
+enum class Omission : uint8_t {
+  kPointsOrLines,
+  kHidden,
+  kCutOuts,
+  kVertexColours,
+  kUnweighted,
+  kCornersLeft,
+  kFreeForm,
+  kBlendShapes,
+  kBeams,
+  kNotPrinted,
+  kHeaderLines,
+  kBytesAfter,
+  kNoEnd,
+};
+
+struct OmissionKind {
+  const char* name;  // in reports
+  const char* text;  // after the count
+};
+
+// [Omission]
+constexpr OmissionKind kOmissions[] = {
+    {"points_or_lines", "groups of points or lines have no triangles"},
+    {"hidden", "hidden nodes are not baked; --hidden bakes them"},
+    {"cut_outs", "meshes of materials with transparent parts are baked whole"},
+    {"vertex_colours", "meshes have colours of vertices, which are not read"},
+    {"unweighted", "skinned vertices without weights are placed by their node"},
+    {"corners_left", "corners after the last whole triangle of a mesh are left out"},
+    {"free_form", "free-form curves or surfaces are not baked"},
+    {"blend_shapes", "meshes have blend shapes, which are not applied"},
+    {"beams", "beam lattices or stacks of slices are not baked"},
+    {"not_printed", "build items that are not printable are baked, too"},
+    {"header_lines", "unknown header lines are skipped"},
+    {"bytes_after", "bytes after the last triangle are ignored"},
+    {"no_end", "solids end without \"endsolid\": the file may be truncated"},
+};
+constexpr size_t kOmissionCount = std::size(kOmissions);
+
+class LeftOut {
+ public:
+  void add(Omission kind, uint64_t count = 1) { counts_[size_t(kind)] += count; }
+  LeftOut& operator+=(const LeftOut& other) {
+    for (size_t i = 0; i < kOmissionCount; ++i) counts_[i] += other.counts_[i];
+    return *this;
+  }
+  uint64_t operator[](size_t kind) const { return counts_[kind]; }
+  // Calls visit(name, count) for each kind, in a fixed order.
+  template <class AnyLeftOut, class Visit>
+  friend void visit_left_out(AnyLeftOut& left_out, const Visit& visit) {
+    for (size_t i = 0; i < kOmissionCount; ++i) visit(kOmissions[i].name, left_out.counts_[i]);
+  }
+
+ private:
+  std::array<uint64_t, kOmissionCount> counts_{};
+};
+
+}  // namespace svdag
