@@ -1,3 +1,4 @@
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -5,6 +6,9 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <optional>
 
 #include "io/dag/open_dag.h"
 #include "io/units.h"
@@ -37,9 +41,34 @@ void parse_address(std::string text, ServerConfig* server) {
   server->token = token;
 }
 
-// Opens the URL in the user's browser if there is a desktop; otherwise the user opens it.
+// A page that leads to the URL, readable only by this user: arguments of programs, such as a
+// browser's, are visible to all.
+class RedirectPage {
+ public:
+  explicit RedirectPage(const std::string& url) {
+    std::string folder = (std::filesystem::temp_directory_path() / "svdag-view-XXXXXX").string();
+    if (mkdtemp(folder.data()) == nullptr) return;
+    folder_ = folder;
+    const mode_t mask = umask(0077);
+    std::ofstream(path()) << "<!doctype html><meta http-equiv=\"refresh\" content=\"0;url=" << url
+                          << "\">\n";
+    umask(mask);
+  }
+  ~RedirectPage() {
+    std::error_code ignored;
+    if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
+  }
+  RedirectPage(const RedirectPage&) = delete;
+
+  // Empty if it could not be written.
+  std::string path() const { return folder_.empty() ? "" : folder_ + "/open.html"; }
+
+ private:
+  std::string folder_;  // of mode 0700
+};
+
+// Opens the page in the user's browser.
 void open_browser(const std::string& url) {
-  if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")) return;
   if (const pid_t child = fork(); child == 0) {
     if (fork() == 0) {  // not our child, so that no zombie remains
       setsid();         // Ctrl-C in the terminal does not end the browser
@@ -86,10 +115,14 @@ int view(const ViewConfig& config) {
   if (config.to) return write_to(*config.to, config, file, cutter, config.up);
   server.up = config.up;
   server.keep = config.keep;
+  std::optional<RedirectPage> redirect;  // while the server runs
   serve(file, cutter, server, [&](const std::string& url) {
     std::printf("%s\n", url.c_str());
     std::fflush(stdout);
-    if (config.open) open_browser(url);
+    const bool has_desktop = std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY");
+    if (!config.open || !has_desktop) return;
+    redirect.emplace(url);
+    if (!redirect->path().empty()) open_browser(redirect->path());
   });
   return int(ExitCode::kOk);
 }

@@ -1,7 +1,9 @@
 #include "verify/view/folder.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <unordered_map>
@@ -30,13 +32,38 @@ void create_folder(const std::string& path) {
   if (error) throw Error(ExitCode::kOutput, "cannot create: " + error.message(), path);
 }
 
+// Refuses a folder with a file that this page would not have, or has otherwise.
+void check_entries(const std::string& folder, size_t tiles) {
+  const auto refuse = [&](const std::string& name) {
+    fail_usage(folder + ": holds \"" + name +
+               "\", which is not of this page; choose another folder");
+  };
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    const auto is_same = [&](const PageFile& page) {
+      return page.name == name && File::open_read(entry.path().string()).text() == page.text;
+    };
+    if (name != "tiles" && name != "scene.json" && std::ranges::none_of(page_files(), is_same))
+      refuse(name);
+  }
+  if (!std::filesystem::exists(folder + "/tiles")) return;
+  for (const auto& entry : std::filesystem::directory_iterator(folder + "/tiles")) {
+    const std::string name = entry.path().filename().string();
+    uint64_t id = 0;
+    const auto read = std::from_chars(name.data(), name.data() + name.size(), id);
+    if (read.ec != std::errc() || std::to_string(id) != name || id < 1 || id > tiles)
+      refuse("tiles/" + name);
+  }
+}
+
 // Creates the folder and its scene.json; accepts one that holds the same.
-void open_folder(const std::string& folder, const std::string& scene) {
+void open_folder(const std::string& folder, const std::string& scene, size_t tiles) {
   const std::string scene_path = folder + "/scene.json";
   create_folder(folder);
   if (std::filesystem::exists(scene_path)) {
     if (File::open_read(scene_path).text() != scene)
       fail_usage(folder + ": holds the page of another scene or level; choose another folder");
+    check_entries(folder, tiles);
   } else if (!std::filesystem::is_empty(folder)) {
     fail_usage(folder + ": is not empty and not such a page; choose another folder");
   } else {
@@ -103,7 +130,7 @@ uint64_t estimate_bytes(const TileCutter& cutter, const TileList& list, Executor
 
 uint64_t write_folder(const std::string& folder, const DagFile& file, const TileCutter& cutter,
                       const TileList& list, int up, Executor& executor, Progress& progress) {
-  open_folder(folder, scene_json(file, cutter, {up, 1, false}));
+  open_folder(folder, scene_json(file, cutter, {up, 1, false}), list.cubes.size());
   progress.phase("Tiles", list.cubes.size());
   std::atomic<uint64_t> bytes = 0;
   executor.for_each(list.cubes.size(), [&](size_t, size_t i) {

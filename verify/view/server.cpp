@@ -1,11 +1,16 @@
 #include "verify/view/server.h"
 
+#include <fcntl.h>
 #include <httplib.h>
+#include <poll.h>
 #include <sodium.h>
+#include <sys/eventfd.h>
 
 #include <atomic>
 #include <charconv>
+#include <mutex>
 #include <thread>
+#include <vector>
 
 #include "streaming/error.h"
 #include "streaming/file/checksum.h"
@@ -28,8 +33,11 @@ std::string random_token() {
 
 // Whether a Host header names this machine; any port, because tunnels have their own.
 bool is_this_machine(const std::string& host) {
-  const std::string name = host.substr(0, host.rfind(':'));
-  return name == "127.0.0.1" || name == "localhost" || name == "[::1]";
+  const size_t bracket = host.starts_with('[') ? host.find(']') : 0;
+  const size_t end = std::min(host.find(':', std::min(bracket, host.size())), host.size());
+  const std::string name = host.substr(0, end), port = host.substr(end);
+  const bool is_port = port.empty() || port.find_first_not_of("0123456789", 1) == port.npos;
+  return is_port && (name == "127.0.0.1" || name == "localhost" || name == "[::1]");
 }
 
 bool is_equal(const std::string& a, const std::string& b) {
@@ -58,25 +66,192 @@ class OpenPages {
   std::atomic<Clock::rep> last_ = 0;
 };
 
+// A connection whose next request has not arrived whole.
+struct Connection {
+  int socket;
+  std::string head;  // what has arrived
+  Clock::time_point deadline;
+};
+
+// A request that has arrived, for httplib. Its answer goes to the socket.
+class RequestStream : public httplib::Stream {
+ public:
+  explicit RequestStream(Connection* connection) : connection_(*connection) {}
+  ~RequestStream() override { connection_.head.erase(0, at_); }
+
+  bool is_readable() const override { return at_ < connection_.head.size(); }
+  bool is_writable() const override {
+    constexpr int kWaitMs = 5000;
+    pollfd ready{connection_.socket, POLLOUT, 0};
+    return poll(&ready, 1, kWaitMs) == 1 && (ready.revents & (POLLERR | POLLHUP)) == 0;
+  }
+  ssize_t read(char* to, size_t size) override {
+    const size_t n = connection_.head.copy(to, size, at_);
+    at_ += n;
+    return ssize_t(n);
+  }
+  ssize_t write(const char* from, size_t size) override {
+    if (!is_writable()) return -1;
+    return send(connection_.socket, from, size, MSG_NOSIGNAL);
+  }
+  void get_remote_ip_and_port(std::string&, int&) const override {}
+  void get_local_ip_and_port(std::string&, int&) const override {}
+  socket_t socket() const override { return connection_.socket; }
+
+ private:
+  Connection& connection_;
+  size_t at_ = 0;
+};
+
+// An HTTP server whose worker threads see only whole requests with the token. One thread reads the
+// heads of all connections; heads are bounded in bytes and time, so a stranger who sends much,
+// slowly or often holds no worker and little memory.
+class BoundedServer : public httplib::Server {
+ public:
+  // `root`: what the path of a request must begin with.
+  explicit BoundedServer(std::string root) : root_(std::move(root)), pool_(64) {
+    new_task_queue = [] { return new RunAtOnce; };
+    reader_ = std::thread([this] { read_heads(); });
+  }
+  ~BoundedServer() override { end(); }
+
+  // After stop(): ends all connections.
+  void end() {
+    if (!reader_.joinable()) return;
+    ending_ = true;
+    wake();
+    reader_.join();
+    pool_.shutdown();
+    for (const Connection& each : incoming_) close(each.socket);
+    incoming_.clear();
+    close(wake_);
+  }
+
+ private:
+  static constexpr size_t kMaxHead = size_t(1) << 14;
+  static constexpr size_t kMaxConnections = 512;
+  static constexpr std::chrono::seconds kHeadTime{5}, kIdleTime{30};
+
+  struct RunAtOnce : httplib::TaskQueue {
+    void enqueue(std::function<void()> task) override { task(); }
+    void shutdown() override {}
+  };
+
+  // Called by httplib for each connection that it accepts.
+  bool process_and_close_socket(socket_t socket) override {
+    fcntl(socket, F_SETFL, fcntl(socket, F_GETFL) | O_NONBLOCK);
+    add({socket, {}, Clock::now() + kHeadTime});
+    return true;
+  }
+  void add(Connection connection) {
+    const std::lock_guard lock(mutex_);
+    incoming_.push_back(std::move(connection));
+    wake();
+  }
+  void wake() { eventfd_write(wake_, 1); }
+
+  void read_heads() {
+    std::vector<Connection> waiting;
+    while (!ending_) {
+      {
+        const std::lock_guard lock(mutex_);
+        std::ranges::move(incoming_, std::back_inserter(waiting));
+        incoming_.clear();
+      }
+      const size_t many = waiting.size() - std::min(waiting.size(), kMaxConnections);
+      for (size_t i = 0; i < many; ++i) close(waiting[i].socket);
+      waiting.erase(waiting.begin(), waiting.begin() + ptrdiff_t(many));
+      std::vector<pollfd> ready{{wake_, POLLIN, 0}};
+      for (const Connection& each : waiting) ready.push_back({each.socket, POLLIN, 0});
+      constexpr int kTickMs = 250;
+      poll(ready.data(), ready.size(), kTickMs);
+      if (ready[0].revents != 0) {
+        eventfd_t value;
+        eventfd_read(wake_, &value);
+      }
+      std::vector<Connection> still;
+      for (size_t i = 0; i < waiting.size(); ++i) {
+        if (!is_settled(&waiting[i], ready[i + 1].revents != 0))
+          still.push_back(std::move(waiting[i]));
+      }
+      waiting = std::move(still);
+    }
+    for (const Connection& each : waiting) close(each.socket);
+  }
+
+  // Whether the connection waits no longer: it was passed to a worker, or closed.
+  bool is_settled(Connection* connection, bool readable) {
+    std::string& head = connection->head;
+    if (readable) {
+      char bytes[4096];
+      const ssize_t n = recv(connection->socket, bytes, sizeof bytes, 0);
+      const bool again = n < 0 && (errno == EAGAIN || errno == EINTR);
+      if (n <= 0 && !again) return refuse(*connection, nullptr);
+      if (head.empty()) connection->deadline = Clock::now() + kHeadTime;
+      if (n > 0) head.append(bytes, size_t(n));
+    }
+    if (head.find("\r\n\r\n") != head.npos) {
+      const size_t path = head.find(' ') + 1;
+      if (!is_equal(head.substr(path, root_.size()), root_))
+        return refuse(*connection, "403 Forbidden");
+      pool_.enqueue([this, it = *connection]() mutable { answer(std::move(it)); });
+      return true;
+    }
+    if (head.size() > kMaxHead) return refuse(*connection, "431 Request Header Fields Too Large");
+    return Clock::now() > connection->deadline && refuse(*connection, nullptr);
+  }
+
+  // Closes the connection, with a status if not null. Returns true.
+  static bool refuse(const Connection& connection, const char* status) {
+    if (status != nullptr) {
+      const std::string text =
+          std::string("HTTP/1.1 ") + status + "\r\nContent-Length: 0\r\nConnection: close\r\n\r\n";
+      send(connection.socket, text.data(), text.size(), MSG_NOSIGNAL);
+    }
+    close(connection.socket);
+    return true;
+  }
+
+  void answer(Connection connection) {
+    bool closed = false, good = false;
+    {
+      RequestStream stream(&connection);
+      good = process_request(stream, false, closed, nullptr);
+    }
+    if (!good || closed || ending_) {
+      close(connection.socket);
+    } else {
+      connection.deadline = Clock::now() + kIdleTime;
+      add(std::move(connection));
+    }
+  }
+
+  const std::string root_;
+  httplib::ThreadPool pool_;
+  std::atomic<bool> ending_ = false;
+  const int wake_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+  std::mutex mutex_;
+  std::vector<Connection> incoming_;  // for the reader
+  std::thread reader_;
+};
+
 class Site {
  public:
   Site(const DagFile& file, const TileCutter& cutter, const ServerConfig& config)
       : cutter_(cutter),
         root_("/" + config.token + "/"),
-        scene_(scene_json(file, cutter, {config.up, 1, true})) {
-    // A connection takes a thread, and a browser opens six for a page.
-    server_.new_task_queue = [] { return new httplib::ThreadPool(64); };
+        scene_(scene_json(file, cutter, {config.up, 1, true})),
+        server_(root_) {
     server_.set_payload_max_length(0);
     // The default, SO_REUSEPORT, would share the port with another process.
     server_.set_socket_options([](socket_t socket) {
       const int yes = 1;
       setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
     });
-    server_.set_keep_alive_max_count(1000000);
-    server_.set_keep_alive_timeout(1);  // seconds; the end waits for idle connections
     server_.set_tcp_nodelay(true);
     server_.set_default_headers({{"X-Content-Type-Options", "nosniff"},
                                  {"Referrer-Policy", "no-referrer"},
+                                 {"Content-Security-Policy", "frame-ancestors 'none'"},
                                  {"Cross-Origin-Resource-Policy", "same-origin"},
                                  {"Cache-Control", "private, no-cache"}});
     server_.set_pre_routing_handler(
@@ -87,9 +262,9 @@ class Site {
     });
   }
 
-  httplib::Server& server() { return server_; }
+  BoundedServer& server() { return server_; }
   const OpenPages& pages() const { return pages_; }
-  void end() {
+  void stop() {
     ending_ = true;
     server_.stop();
   }
@@ -153,7 +328,7 @@ class Site {
 
   const TileCutter& cutter_;
   const std::string root_, scene_;
-  httplib::Server server_;
+  BoundedServer server_;
   OpenPages pages_;
   std::atomic<bool> ending_ = false;
 };
@@ -174,8 +349,9 @@ void serve(const DagFile& file, const TileCutter& cutter, const ServerConfig& co
     fail_usage(host + ":" + std::to_string(known.port) + ": cannot listen: the port is in use");
   std::thread listener([&] { site.server().listen_after_bind(); });
   const auto end = [&] {
-    site.end();
+    site.stop();
     listener.join();
+    site.server().end();
   };
   try {
     while (!site.server().is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
