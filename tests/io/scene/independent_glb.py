@@ -17,6 +17,9 @@ by bit, so this is the order of every floating-point operation (all in double, n
   point          ((m0*x + m1*y) + m2*z) + m3
   mirrored       by a negative determinant: the last two corners of each triangle change places
   normalised     integers divided by their largest value, at least -1 (KHR_mesh_quantization)
+  morphed        p + w * t for each target of a weight that is not 0, in order
+  skinned        (sum of w * joint(p)) / sum of w, by the joints of JOINTS_0, JOINTS_1, ... in order; a joint is its node's
+                 world matrix * its inverse bind matrix; in the world, whatever the node
 """
 import hashlib
 import json
@@ -28,7 +31,7 @@ import sys
 import numpy as np
 
 COMPONENTS = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
-WIDTH = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}
+WIDTH = {"SCALAR": 1, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 
 
 class Glb:
@@ -92,6 +95,44 @@ def transform(m, v):
     return np.stack([((r[0] * x + r[1] * y) + r[2] * z) + r[3] for r in m], axis=1)
 
 
+def worlds_of(nodes):
+    """The world matrix of every node, in a scene or not."""
+    parents = {c: i for i, n in enumerate(nodes) for c in n.get("children", ())}
+
+    def world(i):
+        return compose(world(parents[i]) if i in parents else np.eye(4)[:3], local_matrix(nodes[i]))
+    return [world(i) for i in range(len(nodes))]
+
+
+def morphed(glb, node, primitive, points):
+    weights = node.get("weights", glb.doc["meshes"][node["mesh"]].get("weights", ()))
+    for weight, target in zip(weights, primitive.get("targets", ())):
+        if weight != 0 and "POSITION" in target:
+            points = points + weight * glb.positions(target["POSITION"])
+    return points
+
+
+def skinned(glb, skin, primitive, points, worlds):
+    joints = skin["joints"]
+    binds = [np.eye(4)[:3]] * len(joints)
+    if "inverseBindMatrices" in skin:
+        binds = [m.reshape(4, 4).T[:3] for m in glb.accessor(skin["inverseBindMatrices"]).astype(np.float64)]
+    matrices = np.array([compose(worlds[j], b) for j, b in zip(joints, binds)])
+    sums, totals = np.zeros((len(points), 3)), np.zeros((len(points), 1))
+    x, y, z = points[:, 0:1], points[:, 1:2], points[:, 2:3]
+    for number in range(9):
+        if f"JOINTS_{number}" not in primitive["attributes"]:
+            break
+        numbers = glb.accessor(primitive["attributes"][f"JOINTS_{number}"])
+        weights = glb.positions(primitive["attributes"][f"WEIGHTS_{number}"])
+        for k in range(4):
+            m, w = matrices[numbers[:, k]], weights[:, k:k + 1]
+            sums = sums + w * (((m[:, :, 0] * x + m[:, :, 1] * y) + m[:, :, 2] * z) + m[:, :, 3])
+            totals = totals + w
+    assert (totals > 0).all()
+    return sums / totals
+
+
 def corners(count, mode):
     """Corner numbers, three per triangle."""
     i = np.arange(max(count - 2, 0))
@@ -113,6 +154,7 @@ def triangles(glb):
     else:
         roots = sorted(set(range(len(nodes))) - {c for n in nodes for c in n.get("children", ())})
     identity = np.eye(4)[:3]
+    worlds = worlds_of(nodes)
     stack = [(r, identity) for r in reversed(roots)]
     while stack:
         index, parent = stack.pop()
@@ -122,11 +164,16 @@ def triangles(glb):
         if "mesh" not in node:
             continue
         for primitive in doc["meshes"][node["mesh"]]["primitives"]:
-            points = transform(world, glb.positions(primitive["attributes"]["POSITION"]))
+            points = morphed(glb, node, primitive, glb.positions(primitive["attributes"]["POSITION"]))
+            is_skinned = "skin" in node and "JOINTS_0" in primitive["attributes"]
+            if is_skinned:
+                points = skinned(glb, doc["skins"][node["skin"]], primitive, points, worlds)
+            else:
+                points = transform(world, points)
             if "indices" in primitive:
                 points = points[glb.accessor(primitive["indices"])[:, 0]]
             points = points[corners(len(points), primitive.get("mode", 4))]
-            if np.linalg.det(world[:, :3]) < 0:
+            if not is_skinned and np.linalg.det(world[:, :3]) < 0:
                 points = points.reshape(-1, 3, 3)[:, [0, 2, 1]].reshape(-1, 3)
             yield points
 
