@@ -35,6 +35,11 @@ bool parse_open(const std::string& name, Rule rule) {
   return name == "surface";
 }
 
+double checked_time(double seconds) {
+  if (!std::isfinite(seconds)) fail_usage("--time: give a number of seconds");
+  return seconds;
+}
+
 double checked_scale(double scale) {
   if (!std::isnormal(scale)) fail_usage("--scale: give a factor other than 0");
   return scale;
@@ -72,6 +77,15 @@ void add_scene_options(CLI::App* app, SceneConfig* scene) {
   app->add_flag("--allow-empty", scene->allow_unmatched, "Accept a pattern that matches no name");
   app->add_flag("--allow-outside", scene->allow_outside,
                 "Read .mtl files and textures outside the folder of an .obj file, too");
+  app->add_option_function<double>(
+         "--time", [scene](double s) { pose_time(scene)->seconds = checked_time(s); },
+         "Pose a glTF scene as its animations do at this time; without it, the pose at rest")
+      ->type_name("SECONDS");
+  app->add_option_function<std::string>(
+         "--animation", [scene](const std::string& name) { pose_time(scene)->animation = name; },
+         "The animation for --time: its name, #NUMBER from 0, or all")
+      ->needs("--time")
+      ->type_name("NAME");
   app->add_flag("--hidden", scene->hidden, "Bake nodes that the file hides, too");
   app->add_flag("--skip-invalid", scene->skip_invalid,
                 "Drop triangles with NaN or infinite coordinates");

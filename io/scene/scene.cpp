@@ -166,7 +166,10 @@ SceneCounts Scene::read(const TriangleSink& sink, MeshBox* box_alone) const {
                         config_.sandbox,
                         config_.colours ? &images_ : nullptr,
                         config_.allow_outside,
-                        config_.hidden};
+                        config_.hidden,
+                        config_.time ? &*config_.time : nullptr};
+    if (config_.time && detect_format(file).read != read_gltf)
+      fail_usage(path + ": --time: svdag follows only animations of glTF");
     if (config_.only) options.box_alone = nullptr;
     if (to_world == Affine()) {
       counts.left_out += read_scene_file(detect_format(file), file, options, filtered);

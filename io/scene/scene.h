@@ -31,13 +31,20 @@ struct SceneConfig {
   Affine up = {};                  // --up: after `transform`
   double scale = 1;                // --scale: after `up`
   bool hidden = false;             // --hidden: nodes that the file hides
-  bool colours = false;            // of materials are read, and the files that hold them
+  std::optional<PoseTime> time = {};  // --time, --animation
+  bool colours = false;               // of materials are read, and the files that hold them
   // For judges: if given, only the triangles of the part of this kind and name.
   std::optional<std::pair<PartKind, std::string>> only = {};
 
   // From the coordinates of the files, transforms of glTF nodes included, to the world.
   Affine to_world() const { return compose(scaling(scale), compose(up, transform)); }
 };
+
+// The time of `scene`, which from now on is posed.
+inline PoseTime* pose_time(SceneConfig* scene) {
+  if (!scene->time) scene->time.emplace();
+  return &*scene->time;
+}
 
 struct SceneCounts {
   uint64_t triangles = 0;   // passed to the sink

@@ -40,7 +40,7 @@ void visit_mtl_files(const File& content, const BesideOptions& options, const Vi
 }
 
 void visit_gltf_files(const File& content, const BesideOptions& options, const VisitFile& visit) {
-  const GltfDocument document = load_gltf(content, options.budget, options.colours);
+  const GltfDocument document = load_gltf(content, options.budget, {.images = options.colours});
   for (const File& buffer : GltfBuffers(document, options.budget).files()) visit(buffer);
   for (const File& image : image_files(document)) visit(image);
 }

@@ -59,6 +59,17 @@ void add_scene(CLI::App* command, SceneConfig* scene) {
       ->type_name("PATTERN");
   command->add_flag("--allow-empty", scene->allow_unmatched,
                     "Accept a pattern that matches no name");
+  command
+      ->add_option_function<double>(
+          "--time", [scene](double s) { pose_time(scene)->seconds = s; },
+          "The time of animations that the bake was posed at")
+      ->type_name("SECONDS");
+  command
+      ->add_option_function<std::string>(
+          "--animation", [scene](const std::string& name) { pose_time(scene)->animation = name; },
+          "The animation of that time: its name, #NUMBER from 0, or all")
+      ->needs("--time")
+      ->type_name("NAME");
   command->add_flag("--hidden", scene->hidden, "The bake has nodes that the file hides, too");
   command->add_flag("--skip-invalid", scene->skip_invalid,
                     "Drop triangles with NaN or infinity, as in the bake");

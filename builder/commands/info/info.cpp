@@ -181,6 +181,7 @@ int run(const InfoCommand& config) {
     reject(!scene.names.exclude.empty(), "--exclude", what);
     reject(scene.allow_unmatched, "--allow-empty", what);
     reject(scene.allow_outside, "--allow-outside", what);
+    reject(scene.time.has_value(), "--time", what);
     reject(scene.hidden, "--hidden", what);
     reject(scene.skip_invalid, "--skip-invalid", what);
     reject(scene.sandbox, "--sandbox", what);

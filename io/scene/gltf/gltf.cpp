@@ -3,14 +3,16 @@
 // Stream order: nodes depth first; within a node its primitives, of each its instances, of each the
 // triangles. Only the positions of an indexed primitive are held (mesh_writer.h), and small
 // primitives that nodes share; indices, unindexed positions and instances pass through small
-// windows. Skins and morph targets are applied (gltf_pose.h), except to Draco primitives, whose
-// triangles are counted as undeformed. Points and lines are skipped. A Draco primitive that also
-// has plain data is read from the plain data, which is exact.
+// windows. Animations are applied at a time (gltf_animation.h), skins and morph targets
+// (gltf_pose.h), except to Draco primitives, whose triangles are counted as undeformed. Points and
+// lines are skipped. A Draco primitive that also has plain data is read from the plain data, which
+// is exact.
 #include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
 
+#include "io/scene/gltf/gltf_animation.h"
 #include "io/scene/gltf/gltf_assembly.h"
 #include "io/scene/gltf/gltf_buffers.h"
 #include "io/scene/gltf/gltf_document.h"
@@ -29,13 +31,17 @@ namespace {
 class GltfReader {
  public:
   GltfReader(const File& file, const ReadOptions& options, MeshWriter* out)
-      : document_(load_gltf(file, options.budget, options.images != nullptr)),
+      : document_(
+            load_gltf(file, options.budget, {options.images != nullptr, options.time != nullptr})),
         options_(options),
         buffers_(document_, options.budget, options.spill, options.sandbox),
         draco_(document_, &buffers_, options),
         kept_(options.budget),
         pose_(document_, &buffers_, options.budget),
-        out_(*out) {}
+        out_(*out) {
+    if (options.time != nullptr)
+      left_out_.add(Omission::kChannels, pose_at(*options.time, &document_, &buffers_));
+  }
 
   LeftOut read() {
     const uint64_t hidden =

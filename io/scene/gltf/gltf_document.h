@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "io/scene/gltf/gltf_json.h"
 #include "streaming/file/file.h"
 #include "streaming/memory/memory_budget.h"
 
@@ -63,7 +64,7 @@ struct GltfDocument {
 
 // `file` must outlive the document. A file that is not glTF 2.x, is truncated, nests deeper than
 // 256 levels, or requires an extension that would change the geometry is an Error (kBadInput).
-// `images`: the document has textures and images, too.
-GltfDocument load_gltf(const File& file, MemoryBudget* budget, bool images = false);
+// `parts`: what the document has, too.
+GltfDocument load_gltf(const File& file, MemoryBudget* budget, GltfParts parts = {});
 
 }  // namespace svdag

@@ -42,8 +42,9 @@ class WindowBuffer : public std::streambuf {
   size_t shown_ = 0;
 };
 
-bool is_read(std::string_view key, bool images) {
-  if (images && (key == "textures" || key == "images")) return true;
+bool is_read(std::string_view key, GltfParts parts) {
+  if (parts.animations && key == "animations") return true;
+  if (parts.images && (key == "textures" || key == "images")) return true;
   constexpr std::array<std::string_view, 11> kKeys = {
       "asset",       "scene",   "scenes",
       "nodes",       "meshes",  "accessors",
@@ -55,8 +56,9 @@ bool is_read(std::string_view key, bool images) {
 // Receives the parser's events (nlohmann::json_sax) and builds the tree.
 class TreeBuilder {
  public:
-  TreeBuilder(const File& file, uint64_t text_bytes, bool images, MemoryBudget::Reservation* memory)
-      : path_(file.path()), images_(images), used_(text_bytes), memory_(memory) {
+  TreeBuilder(const File& file, uint64_t text_bytes, GltfParts parts,
+              MemoryBudget::Reservation* memory)
+      : path_(file.path()), parts_(parts), used_(text_bytes), memory_(memory) {
     // The longest string may pass through the parser's token buffer.
     memory_->resize(used_, kPurpose);
   }
@@ -74,7 +76,7 @@ class TreeBuilder {
   bool end_array() { return end(); }
   // The member of that name, for the value that follows; the later of two.
   bool key(const std::string& name) {
-    if (depth_ == 1) skipping_ = !is_read(name, images_);
+    if (depth_ == 1) skipping_ = !is_read(name, parts_);
     note(name.size());
     if (!skipping_) member_ = &open_.back()->get_ref<json::object_t&>()[name];
     return true;
@@ -123,7 +125,7 @@ class TreeBuilder {
   }
 
   const std::string& path_;
-  bool images_;
+  GltfParts parts_;
   uint64_t used_;
   MemoryBudget::Reservation* memory_;
   json root_;
@@ -135,9 +137,9 @@ class TreeBuilder {
 
 }  // namespace
 
-json parse_gltf_json(const File& file, uint64_t begin, uint64_t end, bool images,
+json parse_gltf_json(const File& file, uint64_t begin, uint64_t end, GltfParts parts,
                      MemoryBudget::Reservation* memory) {
-  TreeBuilder tree(file, end - begin, images, memory);
+  TreeBuilder tree(file, end - begin, parts, memory);
   WindowBuffer buffer(file, begin, end);
   std::istream text(&buffer);
   try {

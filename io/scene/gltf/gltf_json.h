@@ -1,5 +1,5 @@
 // Parses the JSON text of a glTF file into a tree of values, without members that are not read
-// (animations, and images unless colours are wanted).
+// (images and animations, unless they are requested).
 //
 // The text is read through a window; the memory of the values is reserved in the budget. The tree
 // is built from the parser's events. Rejected: the parser's own callback filter, which searches
@@ -14,9 +14,15 @@
 
 namespace svdag {
 
+// Parts of a document that are read only on request.
+struct GltfParts {
+  bool images = false;  // textures and images
+  bool animations = false;
+};
+
 // Bytes [begin, end) of `file`. What is not JSON or nests deeper than 256 levels is an Error
-// (kBadInput). `memory` grows with the values. `images`: textures and images are read, too.
-nlohmann::json parse_gltf_json(const File& file, uint64_t begin, uint64_t end, bool images,
+// (kBadInput). `memory` grows with the values. `parts`: what is read, too.
+nlohmann::json parse_gltf_json(const File& file, uint64_t begin, uint64_t end, GltfParts parts,
                                MemoryBudget::Reservation* memory);
 
 }  // namespace svdag

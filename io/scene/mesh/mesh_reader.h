@@ -71,6 +71,14 @@ struct MeshBox {
   uint64_t triangles = 0;
 };
 
+// A time of animations.
+struct PoseTime {
+  double seconds = 0;
+  std::string animation = "all";  // its name, "#" and its number from 0, or "all"
+
+  bool operator==(const PoseTime&) const = default;
+};
+
 struct ReadOptions {
   const NameFilter* names = nullptr;  // never null in a reader
   // The file's own name matched --include: its parts need not match again.
@@ -84,8 +92,9 @@ struct ReadOptions {
   bool sandbox = false;
   // Not null: the colours of materials are wanted, though they need further files.
   ImageMeans* images = nullptr;
-  bool allow_outside = false;  // read materials and textures outside the folder of an .obj file
-  bool hidden = false;         // read nodes that the file hides
+  bool allow_outside = false;      // read materials and textures outside the folder of an .obj file
+  bool hidden = false;             // read nodes that the file hides
+  const PoseTime* time = nullptr;  // null: the pose at rest
 
   // Whether the object `name`, which has no material, is selected.
   bool wants(const std::string& name) const {

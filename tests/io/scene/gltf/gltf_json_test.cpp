@@ -44,7 +44,7 @@ json parse(const std::string& text) {
   const MemoryFile memory(text);
   MemoryBudget budget;
   MemoryBudget::Reservation reservation = budget.reserve(0, "test");
-  return parse_gltf_json(memory.file(), 0, text.size(), false, &reservation);
+  return parse_gltf_json(memory.file(), 0, text.size(), {}, &reservation);
 }
 
 // Without the members of the root that do not concern geometry.
