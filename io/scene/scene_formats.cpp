@@ -7,6 +7,7 @@
 #include "io/scene/decoders/gzip.h"
 #include "io/scene/gltf/gltf_buffers.h"
 #include "io/scene/gltf/gltf_images.h"
+#include "io/scene/gltf/tile.h"
 #include "io/scene/readers/mtl.h"
 #include "io/scene/readers/ply_header.h"
 #include "io/scene/readers/text_scan.h"
@@ -25,6 +26,14 @@ bool begins_as_glb(std::string_view start, bool) {
          start.starts_with(std::string_view("glTF\2\0\0\0", 8));
 }
 
+bool begins_as_b3dm(std::string_view start, bool) {
+  return begins_as_batched_tile(start);
+}
+
+bool begins_as_i3dm(std::string_view start, bool) {
+  return begins_as_instanced_tile(start);
+}
+
 bool begins_as_draco(std::string_view start, bool is_named_stl) {
   return start.starts_with("DRACO") && !is_named_stl;
 }
@@ -40,7 +49,10 @@ void visit_mtl_files(const File& content, const BesideOptions& options, const Vi
 }
 
 void visit_gltf_files(const File& content, const BesideOptions& options, const VisitFile& visit) {
-  const GltfDocument document = load_gltf(content, options.budget, {.images = options.colours});
+  const Tile tile(content, options.budget);
+  if (tile.beside() != nullptr) visit(*tile.beside());
+  const GltfDocument document = load_gltf(tile.gltf_file(), options.budget,
+                                          {.images = options.colours}, tile.gltf_bytes());
   for (const File& buffer : GltfBuffers(document, options.budget).files()) visit(buffer);
   for (const File& image : image_files(document)) visit(image);
 }
@@ -68,6 +80,8 @@ constexpr SceneFormat kFormats[] = {
     {"OFF", "off", true, nullptr, "OFF", read_off},
     {"glTF", "gltf", true, nullptr, "", read_gltf, "", visit_gltf_files},
     {"GLB", "glb", false, begins_as_glb, "", read_gltf, "", visit_gltf_files},
+    {"B3DM", "b3dm", false, begins_as_b3dm, "", read_gltf, "", visit_gltf_files},
+    {"I3DM", "i3dm", false, begins_as_i3dm, "", read_gltf, "", visit_gltf_files},
     {"Draco", "drc", false, begins_as_draco, "", read_draco},
     {"OpenMesh", "om", false, nullptr, "", kReadOpenMesh},
     {"FBX", "fbx", false, begins_as_fbx, "", kReadFbx, kAsGlb},
@@ -99,6 +113,8 @@ constexpr ForeignFormat kForeignFormats[] = {
     {" vrml wrl x3d ", "#VRML", "VRML or X3D", kByMeshLab},
     {" las laz ", "LASF", "a point cloud (LAS)", kByCloudCompare},
     {" e57 pcd xyz pts ", "ASTM-E57", "a point cloud", kByCloudCompare},
+    {" cmpt ", "cmpt\1", "a composite of 3D Tiles", "unpack its tiles"},
+    {" pnts ", "pnts\1", "a point cloud of 3D Tiles", kByCloudCompare},
     {" splat spz ", "", "a Gaussian splat", "svdag bakes triangles: extract a mesh first"},
     {" zst ", "\x28\xb5\x2f\xfd", "compressed with zstd", "unpack it with unzstd"},
     {" zip ", "PK\x03\x04", "a ZIP archive", "unpack it and name the scene in it"},

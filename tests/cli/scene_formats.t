@@ -239,7 +239,7 @@ $ cat out.svdag
 ## build_unknown_format
 $ echo "hello, this is not a mesh" > notes.txt
 $ svdag build notes.txt -r 64 -o r.svdag
-! svdag: notes.txt: is not a supported scene file: svdag reads PLY, STL, OBJ, OFF, glTF, GLB, Draco, OpenMesh, FBX, COLLADA, 3MF and 3DS files, also as .gz; OBJ and binary STL by the ending of their names
+! svdag: notes.txt: is not a supported scene file: svdag reads PLY, STL, OBJ, OFF, glTF, GLB, B3DM, I3DM, Draco, OpenMesh, FBX, COLLADA, 3MF and 3DS files, also as .gz; OBJ and binary STL by the ending of their names
 ? 3
 
 ## build_unknown_vectors

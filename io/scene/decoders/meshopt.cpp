@@ -5,12 +5,13 @@
 #include <vector>
 
 #include "io/scene/decoders/limited_decoder.h"
+#include "io/scene/decoders/meshopt_vertices.h"
 #include "streaming/error.h"
 
 namespace svdag {
 namespace {
 
-constexpr uint64_t kMaxRatio = 256;
+constexpr uint64_t kMaxRatio = 1024;
 constexpr uint64_t kMaxFreeBytes = 65536;  // bytes, whatever the data
 
 // The combinations that EXT_meshopt_compression allows.
@@ -33,8 +34,12 @@ bool decode_view(const MeshoptView& v, std::span<const std::byte> bytes,
     return meshopt_decodeIndexBuffer(out->data(), v.count, v.stride, data, bytes.size()) == 0;
   if (v.mode == "INDICES")
     return meshopt_decodeIndexSequence(out->data(), v.count, v.stride, data, bytes.size()) == 0;
-  if (meshopt_decodeVertexBuffer(out->data(), v.count, v.stride, data, bytes.size()) != 0)
+  if (is_meshopt_version_1(bytes)) {
+    if (!decode_meshopt_vertices(bytes, v.stride, std::as_writable_bytes(std::span(*out))))
+      return false;
+  } else if (meshopt_decodeVertexBuffer(out->data(), v.count, v.stride, data, bytes.size()) != 0) {
     return false;
+  }
   if (v.filter == "OCTAHEDRAL") meshopt_decodeFilterOct(out->data(), v.count, v.stride);
   if (v.filter == "QUATERNION") meshopt_decodeFilterQuat(out->data(), v.count, v.stride);
   if (v.filter == "EXPONENTIAL") meshopt_decodeFilterExp(out->data(), v.count, v.stride);

@@ -1,7 +1,7 @@
 // Decodes buffer views of EXT_meshopt_compression and KHR_meshopt_compression; only meshopt.cpp
 // uses the meshoptimizer library.
 //
-// Memory: a decoder needs a whole view at once. The codecs store at least a byte per 64 bytes of
+// Memory: a decoder needs a whole view at once. The codecs store at least a byte per 1024 bytes of
 // vertices and per triangle, so sizes beyond kMaxRatio times the data are an Error.
 #pragma once
 

@@ -22,6 +22,7 @@
 #include "io/scene/gltf/gltf_kept.h"
 #include "io/scene/gltf/gltf_nodes.h"
 #include "io/scene/gltf/gltf_pose.h"
+#include "io/scene/gltf/tile.h"
 #include "io/scene/polygons/mesh_writer.h"
 #include "streaming/error.h"
 
@@ -31,8 +32,10 @@ namespace {
 class GltfReader {
  public:
   GltfReader(const File& file, const ReadOptions& options, MeshWriter* out)
-      : document_(
-            load_gltf(file, options.budget, {options.images != nullptr, options.time != nullptr})),
+      : tile_(file, options.budget),
+        document_(load_gltf(tile_.gltf_file(), options.budget,
+                            {options.images != nullptr, options.time != nullptr},
+                            tile_.gltf_bytes())),
         options_(options),
         buffers_(document_, options.budget, options.spill, options.sandbox),
         draco_(document_, &buffers_, options),
@@ -44,16 +47,32 @@ class GltfReader {
   }
 
   LeftOut read() {
-    const uint64_t hidden =
-        visit_nodes(document_, options_,
-                    [this](const JsonObject& node, const std::string& name, const Affine& world,
-                           bool included) { read_node(node, name, world, included); });
-    left_out_.add(Omission::kHidden, hidden);
+    for (uint64_t i = 0; i < tile_.instances(); ++i) {
+      const Affine place = compose(tile_.placement(i), centre());
+      pose_.place(place);
+      const uint64_t hidden =
+          visit_nodes(document_, options_, place,
+                      [this](const JsonObject& node, const std::string& name, const Affine& world,
+                             bool included) { read_node(node, name, world, included); });
+      left_out_.add(Omission::kHidden, hidden);
+    }
     left_out_.add(Omission::kUnweighted, pose_.unweighted());
     return left_out_;
   }
 
  private:
+  // CESIUM_RTC: the origin of a scene on the globe, given z-up.
+  Affine centre() const {
+    Affine move;
+    const auto extension = document_.root().extension("CESIUM_RTC");
+    std::array<double, 3> at{0, 0, 0};
+    if (extension) extension->numbers("center", at);
+    move.m[0][3] = at[0];
+    move.m[1][3] = at[2];
+    move.m[2][3] = -at[1];
+    return move;
+  }
+
   void read_node(const JsonObject& node, const std::string& name, const Affine& world,
                  bool included) {
     const JsonObject mesh = document_.element("meshes", node.whole_number("mesh"));
@@ -265,6 +284,7 @@ class GltfReader {
     if (mode == kTriangles) left_out_.add(Omission::kCornersLeft, corners % 3);
   }
 
+  Tile tile_;
   GltfDocument document_;
   const ReadOptions& options_;
   GltfBuffers buffers_;

@@ -50,13 +50,17 @@ Chunk chunk_at(const File& file, uint64_t offset, uint64_t end) {
 }
 
 // Header (magic, version, length), then the JSON chunk, then at most one BIN chunk.
-void load_glb(GltfDocument* document, GltfParts parts) {
+void load_glb(GltfDocument* document, GltfParts parts, GltfBytes bytes) {
   const File& file = *document->file;
-  if (u32_at(file, 4) != 2) fail_input(file.path(), "is not a GLB file of version 2", 4);
-  const uint64_t end = u32_at(file, 8);
-  if (end > file.size()) fail_input(file.path(), "is cut off: GLB file shorter than it says", 8);
-  const Chunk text = chunk_at(file, 12, std::max<uint64_t>(end, 12));
-  if (text.type != kJsonChunk) fail_input(file.path(), "does not begin with a JSON chunk", 12);
+  const uint64_t begin = bytes.begin;
+  if (u32_at(file, begin + 4) != 2)
+    fail_input(file.path(), "is not a GLB file of version 2", begin + 4);
+  const uint64_t end = begin + u32_at(file, begin + 8);
+  if (end > bytes.end)
+    fail_input(file.path(), "is cut off: GLB file shorter than it says", begin + 8);
+  const Chunk text = chunk_at(file, begin + 12, std::max(end, begin + 12));
+  if (text.type != kJsonChunk)
+    fail_input(file.path(), "does not begin with a JSON chunk", begin + 12);
   document->json = parse_gltf_json(file, text.begin, text.end(), parts, &document->memory);
   if (text.end() == end) return;
   const Chunk binary = chunk_at(file, text.end(), end);
@@ -68,11 +72,22 @@ void load_glb(GltfDocument* document, GltfParts parts) {
 bool supported(const std::string& extension) {
   if (extension == "KHR_draco_mesh_compression") return has_draco();
   if (is_meshopt_extension(extension)) return has_meshopt();
-  constexpr std::array<std::string_view, 12> kKnown = {
-      "KHR_mesh_quantization", "EXT_mesh_gpu_instancing", "KHR_texture_transform",
-      "KHR_texture_basisu",    "EXT_texture_webp",        "EXT_texture_avif",
-      "MSFT_texture_dds",      "KHR_lights_punctual",     "EXT_lights_image_based",
-      "KHR_animation_pointer", "KHR_xmp_json_ld",         "KHR_node_visibility"};
+  constexpr std::array<std::string_view, 16> kKnown = {"KHR_mesh_quantization",
+                                                       "EXT_mesh_gpu_instancing",
+                                                       "KHR_texture_transform",
+                                                       "KHR_texture_basisu",
+                                                       "EXT_texture_webp",
+                                                       "EXT_texture_avif",
+                                                       "MSFT_texture_dds",
+                                                       "KHR_lights_punctual",
+                                                       "EXT_lights_image_based",
+                                                       "KHR_animation_pointer",
+                                                       "KHR_xmp_json_ld",
+                                                       "KHR_node_visibility",
+                                                       "CESIUM_RTC",
+                                                       "EXT_mesh_features",
+                                                       "EXT_instance_features",
+                                                       "EXT_structural_metadata"};
   return extension.starts_with("KHR_materials_") ||
          std::find(kKnown.begin(), kKnown.end(), extension) != kKnown.end();
 }
@@ -180,16 +195,17 @@ JsonObject GltfDocument::element(const char* key, uint64_t index) const {
   return JsonObject(elements[size_t(index)], file->path());
 }
 
-GltfDocument load_gltf(const File& file, MemoryBudget* budget, GltfParts parts) {
+GltfDocument load_gltf(const File& file, MemoryBudget* budget, GltfParts parts, GltfBytes bytes) {
   GltfDocument document;
   document.file = &file;
   document.memory = budget->reserve(0, "parsed glTF nodes");
   std::array<char, 4> magic{};
-  file.read_some_at(0, std::as_writable_bytes(std::span(magic)));
+  bytes.end = std::min(bytes.end, file.size());
+  file.read_some_at(bytes.begin, std::as_writable_bytes(std::span(magic)));
   if (std::memcmp(magic.data(), "glTF", 4) == 0) {
-    load_glb(&document, parts);
+    load_glb(&document, parts, bytes);
   } else {
-    document.json = parse_gltf_json(file, 0, file.size(), parts, &document.memory);
+    document.json = parse_gltf_json(file, bytes.begin, bytes.end, parts, &document.memory);
   }
   check_document(document);
   return document;

@@ -62,9 +62,15 @@ struct GltfDocument {
   JsonObject element(const char* key, uint64_t index) const;
 };
 
+// Where the glTF is in its file.
+struct GltfBytes {
+  uint64_t begin = 0, end = UINT64_MAX;
+};
+
 // `file` must outlive the document. A file that is not glTF 2.x, is truncated, nests deeper than
 // 256 levels, or requires an extension that would change the geometry is an Error (kBadInput).
 // `parts`: what the document has, too.
-GltfDocument load_gltf(const File& file, MemoryBudget* budget, GltfParts parts = {});
+GltfDocument load_gltf(const File& file, MemoryBudget* budget, GltfParts parts = {},
+                       GltfBytes bytes = {});
 
 }  // namespace svdag

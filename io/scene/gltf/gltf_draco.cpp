@@ -53,8 +53,7 @@ std::vector<DracoPrimitives::Packed> DracoPrimitives::pack_from(const nlohmann::
   auto next = std::upper_bound(in_order_.begin(), in_order_.end(), &primitive);
   try {
     for (; next != in_order_.end() && bytes < kChildBytes; ++next) {
-      if (unpacked_.contains(*next) || !holds(JsonObject(**next, document_.file->path())))
-        continue;
+      if (unpacked_.contains(*next) || !holds(JsonObject(**next, document_.file->path()))) continue;
       packed.push_back(pack(**next));
       bytes += packed.back().bytes.size();
     }

@@ -43,13 +43,13 @@ class WindowBuffer : public std::streambuf {
 };
 
 bool is_read(std::string_view key, GltfParts parts) {
-  if (parts.animations && key == "animations") return true;
+  if (parts.all || (parts.animations && key == "animations")) return true;
   if (parts.images && (key == "textures" || key == "images")) return true;
-  constexpr std::array<std::string_view, 11> kKeys = {
+  constexpr std::array<std::string_view, 12> kKeys = {
       "asset",       "scene",   "scenes",
       "nodes",       "meshes",  "accessors",
       "bufferViews", "buffers", "extensionsRequired",
-      "materials",   "skins"};
+      "materials",   "skins",   "extensions"};
   return std::find(kKeys.begin(), kKeys.end(), key) != kKeys.end();
 }
 

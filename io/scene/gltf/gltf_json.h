@@ -18,6 +18,7 @@ namespace svdag {
 struct GltfParts {
   bool images = false;  // textures and images
   bool animations = false;
+  bool all = false;  // every member: of other JSON than a glTF document
 };
 
 // Bytes [begin, end) of `file`. What is not JSON or nests deeper than 256 levels is an Error

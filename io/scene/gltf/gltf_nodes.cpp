@@ -20,9 +20,11 @@ void check_rotation(const Trs& trs, const std::string& path) {
 
 class NodeWalk {
  public:
-  NodeWalk(const GltfDocument& document, const ReadOptions& options, const NodeVisitor& visit)
+  NodeWalk(const GltfDocument& document, const ReadOptions& options, const Affine& place,
+           const NodeVisitor& visit)
       : document_(document),
         options_(options),
+        place_(place),
         visit_(visit),
         reached_(document.root().array("nodes").size()) {}
 
@@ -52,7 +54,7 @@ class NodeWalk {
   }
 
  private:
-  void start(uint64_t root) { node(root, Affine(), options_.file_included, 0); }
+  void start(uint64_t root) { node(root, place_, options_.file_included, 0); }
 
   // `chosen`: an ancestor, or the file, matched --include.
   void node(uint64_t index, const Affine& parent, bool chosen, int depth) {
@@ -97,6 +99,7 @@ class NodeWalk {
 
   const GltfDocument& document_;
   const ReadOptions& options_;
+  const Affine place_;
   const NodeVisitor& visit_;
   std::vector<bool> reached_;
   uint64_t skipped_ = 0;  // with all below them
@@ -145,10 +148,10 @@ Affine Trs::affine() const {
   return a;
 }
 
-uint64_t visit_nodes(const GltfDocument& document, const ReadOptions& options,
+uint64_t visit_nodes(const GltfDocument& document, const ReadOptions& options, const Affine& place,
                      const NodeVisitor& visit) {
   const JsonObject root = document.root();
-  NodeWalk walk(document, options, visit);
+  NodeWalk walk(document, options, place, visit);
   if (root.array("scenes").empty()) {
     walk.all_roots();
   } else {

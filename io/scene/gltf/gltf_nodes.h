@@ -41,10 +41,10 @@ using NodeVisitor = std::function<void(const JsonObject& node, const std::string
 // children. `name`: the node's, or its mesh's if the node has none; `included`: whether the node,
 // an ancestor or the file is included, by name or because everything is. The roots are those of the
 // default scene (`scene`, else the first; all roots without a scene). A node that is reached twice
-// (cycles too) or is deeper than kMaxNodeDepth is an Error.
+// (cycles too) or is deeper than kMaxNodeDepth is an Error. `place`: into the world.
 // Returns the number of nodes that the file hides (KHR_node_visibility), which are skipped with
 // what is below them unless options.hidden.
-uint64_t visit_nodes(const GltfDocument& document, const ReadOptions& options,
+uint64_t visit_nodes(const GltfDocument& document, const ReadOptions& options, const Affine& place,
                      const NodeVisitor& visit);
 
 // The instances of one node: itself, or those of EXT_mesh_gpu_instancing. Each of its

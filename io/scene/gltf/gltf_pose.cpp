@@ -14,7 +14,8 @@ constexpr size_t kPoseWindow = 256;  // vertices
 
 void require_count(const Accessor& accessor, uint64_t vertices) {
   if (accessor.count() != vertices)
-    fail_input(*accessor.path, "has a mesh whose vertex attributes differ in their number of elements");
+    fail_input(*accessor.path,
+               "has a mesh whose vertex attributes differ in their number of elements");
 }
 
 }  // namespace
@@ -90,8 +91,7 @@ bool GltfPose::moves(const JsonObject& node, const JsonObject& primitive) const 
 }
 
 std::vector<MorphStream> GltfPose::morphs_of(const JsonObject& node, const JsonObject& primitive,
-                                             uint64_t vertices,
-                                             MemoryBudget::Reservation* memory) {
+                                             uint64_t vertices, MemoryBudget::Reservation* memory) {
   std::vector<MorphStream> morphs;
   if (!primitive.has("targets")) return morphs;
   const std::vector<double> weights = weights_of(node);
@@ -125,6 +125,15 @@ std::vector<JointStream> GltfPose::joints_of(const JsonObject& primitive, uint64
   }
 }
 
+void GltfPose::place(const Affine& place) {
+  if (place == place_) return;
+  place_ = place;
+  worlds_.clear();
+  skin_index_.reset();
+  skin_ = {};
+  memory_.resize(parents_.size() * sizeof(uint32_t), kPurpose);
+}
+
 Affine GltfPose::world_of(uint64_t node) {
   if (parents_.empty()) {
     const auto nodes = document_.root().array("nodes");
@@ -143,8 +152,8 @@ Affine GltfPose::world_of(uint64_t node) {
     if (worlds_.contains(at)) break;
     chain.push_back(at);
     if (chain.size() > kMaxNodeDepth)
-      fail_input(document_.file->path(),
-                 "has a joint nodes[" + std::to_string(node) + "], which is too deep in the hierarchy");
+      fail_input(document_.file->path(), "has a joint nodes[" + std::to_string(node) +
+                                             "], which is too deep in the hierarchy");
     if (at >= parents_.size() || parents_[size_t(at)] == 0) break;
     at = parents_[size_t(at)] - 1;
   }
@@ -153,7 +162,7 @@ Affine GltfPose::world_of(uint64_t node) {
     const JsonObject object = document_.element("nodes", chain[i]);
     const uint32_t parent = parents_[size_t(chain[i])];
     worlds_[chain[i]] =
-        compose(parent == 0 ? Affine() : worlds_.at(parent - 1), local_transform(object));
+        compose(parent == 0 ? place_ : worlds_.at(parent - 1), local_transform(object));
   }
   return worlds_.at(node);
 }

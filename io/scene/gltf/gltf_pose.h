@@ -6,10 +6,11 @@
 //   Mi = compose(Gi, Bi)   Gi: the joint's transform into the world; Bi: its inverse bind matrix
 //
 // in double, in this order (io/affine.h). A skinned vertex is in the world: the transform and the
-// instances of the node that draws it do not apply. Joints count wherever they are in the file: hidden,
-// excluded, in another scene. A vertex whose weights have no positive sum is placed by the node.
-// Nothing is held except the joints of one skin: positions, targets, joints and weights are streamed.
-// Rejected: blending the matrices of a vertex first (more operations for the same result).
+// instances of the node that draws it do not apply. Joints count wherever they are in the file:
+// hidden, excluded, in another scene. A vertex whose weights have no positive sum is placed by the
+// node. Nothing is held except the joints of one skin: positions, targets, joints and weights are
+// streamed. Rejected: blending the matrices of a vertex first (more operations for the same
+// result).
 #pragma once
 
 #include <cstdint>
@@ -42,6 +43,8 @@ class GltfPose {
                       const Accessor& positions, const Affine& world,
                       const std::function<void(const Point&)>& visit);
 
+  // Where the whole scene is from here on; at first as it is.
+  void place(const Affine& place);
   // Number of vertices passed on whose weights have no positive sum.
   uint64_t unweighted() const { return unweighted_; }
 
@@ -60,6 +63,7 @@ class GltfPose {
   GltfBuffers& buffers_;
   MemoryBudget& budget_;
   MemoryBudget::Reservation memory_;
+  Affine place_;
   std::vector<uint32_t> parents_;       // 1 + the parent of each node, 0: a root
   std::map<uint64_t, Affine> worlds_;   // of nodes that joints need
   std::optional<uint64_t> skin_index_;  // of skin_

@@ -13,7 +13,7 @@ namespace {
 
 constexpr uint64_t kHead = uint64_t(1) << 16;
 constexpr uint64_t kLargestMtl = uint64_t(64) << 20;
-constexpr size_t kLongestLine = size_t(1) << 12;
+constexpr size_t kLongestMtlLine = size_t(1) << 12;
 
 bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
@@ -65,11 +65,11 @@ void for_each_line(const File& file, uint64_t max_bytes, const Visit& visit) {
     if (got == 0) break;
     std::string_view text(block.data(), size_t(std::min(got, max_bytes - at)));
     for (size_t end = text.find('\n'); end != text.npos; end = text.find('\n')) {
-      line.append(text.substr(0, std::min(end, kLongestLine)));
+      line.append(text.substr(0, std::min(end, kLongestMtlLine)));
       end_line();
       text.remove_prefix(end + 1);
     }
-    if (line.size() < kLongestLine) line.append(text.substr(0, kLongestLine));
+    if (line.size() < kLongestMtlLine) line.append(text.substr(0, kLongestMtlLine));
   }
   end_line();
 }
