@@ -19,6 +19,7 @@
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
 #include "streaming/file/command_files.h"
+#include "streaming/printable.h"
 #include "streaming/process/interrupt.h"
 
 namespace svdag {
@@ -162,7 +163,8 @@ Outcome bake(const BakeCommand& job, const BatchCommand& batch) {
     outcome.error = kNoMemory;
   }
   if (outcome.code != ExitCode::kOk)
-    std::fprintf(stderr, "svdag: %s: %s\n", job.build.output.c_str(), outcome.error.c_str());
+    std::fprintf(stderr, "svdag: %s: %s\n", printable(job.build.output).c_str(),
+                 printable(outcome.error).c_str());
   return outcome;
 }
 
@@ -208,7 +210,8 @@ class BatchRun {
       const std::optional<std::string> report = record.report_if_up_to_date(jobs_[i]);
       if (!report) continue;
       outcomes_[i] = Outcome{ExitCode::kOk, "", *report, true};
-      if (!jobs_[i].output.quiet) std::printf("%s: up to date\n", jobs_[i].build.output.c_str());
+      if (!jobs_[i].output.quiet)
+        std::printf("%s: up to date\n", printable(jobs_[i].build.output).c_str());
     }
   }
 
@@ -265,7 +268,8 @@ class BatchRun {
     const BakeCommand& job = jobs_[i];
     if (job.output.no_clobber && name_exists(job.build.output)) {
       ++skipped_;
-      if (!job.output.quiet) std::printf("%s: already exists, skipped\n", job.build.output.c_str());
+      if (!job.output.quiet)
+        std::printf("%s: already exists, skipped\n", printable(job.build.output).c_str());
       return;
     }
     Outcome outcome;

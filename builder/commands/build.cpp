@@ -14,6 +14,7 @@
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
 #include "streaming/file/command_files.h"
+#include "streaming/printable.h"
 #include "streaming/process/interrupt.h"
 #include "streaming/spill/scratch_dir.h"
 
@@ -149,7 +150,8 @@ void print_summary(const BakeCommand& config, const BuildReport& r) {
   uint64_t nodes = 0;
   for (const uint64_t n : r.nodes) nodes += n;
   std::printf("%s: %s^3, %s triangles, %s voxels, %s nodes, %s (%.3g bits per voxel), %.1f s\n",
-              config.build.output.c_str(), format_resolution(uint64_t(r.grid.resolution())).c_str(),
+              printable(config.build.output).c_str(),
+              format_resolution(uint64_t(r.grid.resolution())).c_str(),
               format_count(r.split.scene.triangles).c_str(), format_count(r.voxels).c_str(),
               format_count(nodes).c_str(), format_bytes(r.file_bytes).c_str(), bits_per_voxel(r),
               r.seconds);
@@ -239,7 +241,7 @@ std::string bake_scene(const BakeCommand& command, bool in_a_batch) {
     };
   const BuildReport report = build(build_config, &executor, &progress);
   if (!report.cache.write_error.empty())
-    std::fprintf(stderr, "svdag: %s\n", report.cache.write_error.c_str());
+    std::fprintf(stderr, "svdag: %s\n", printable(report.cache.write_error).c_str());
   // Only on request: nlohmann's destructors allocate, which terminates if memory is exhausted.
   const std::string json = needs_json ? report_json(command, report) : "";
   if (report_file) {
@@ -253,8 +255,9 @@ std::string bake_scene(const BakeCommand& command, bool in_a_batch) {
   print_summary(command, report);
   // Not in a batch: most of its bakes were not the interrupted one.
   if (!in_a_batch && command.build.unfinished == Unfinished::kResume && !report.resumed)
-    std::printf("  nothing to resume in %s: it was baked anew\n",
-                ScratchDir::path_for(command.build.output, command.build.scratch).c_str());
+    std::printf(
+        "  nothing to resume in %s: it was baked anew\n",
+        printable(ScratchDir::path_for(command.build.output, command.build.scratch)).c_str());
   return json;
 }
 

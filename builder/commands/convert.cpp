@@ -10,6 +10,7 @@
 #include "streaming/file/atomic_file.h"
 #include "streaming/file/checksum.h"
 #include "streaming/file/command_files.h"
+#include "streaming/printable.h"
 
 namespace svdag {
 
@@ -24,9 +25,9 @@ int run(const ConvertCommand& config) {
   const uint64_t before = File::open_read(config.file).size();
   const Header header = write_selection(file, config.selection, path, room);
   if (!config.output.quiet)
-    std::printf("%s: %s, %s, %.1f %% of %s\n  content hash %s\n", path.c_str(),
+    std::printf("%s: %s, %s, %.1f %% of %s\n  content hash %s\n", printable(path).c_str(),
                 layout_name(config.selection.layout), format_bytes(header.file_bytes).c_str(),
-                100 * double(header.file_bytes) / double(before), config.file.c_str(),
+                100 * double(header.file_bytes) / double(before), printable(config.file).c_str(),
                 to_hex(header.content_hash).c_str());
   return int(ExitCode::kOk);
 }

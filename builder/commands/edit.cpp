@@ -7,6 +7,7 @@
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
 #include "streaming/file/command_files.h"
+#include "streaming/printable.h"
 
 namespace svdag {
 namespace {
@@ -41,11 +42,12 @@ int run(const EditCommand& config) {
   if (config.output.json)
     std::fputs(report_json(r, config.edit.output).c_str(), stdout);
   else if (!config.output.quiet)
-    std::printf(
-        "%s: %s^3, %s voxels%s, %s nodes, %s\n  content hash %s\n", config.edit.output.c_str(),
-        format_resolution(uint64_t(r.grid.resolution())).c_str(), format_count(r.voxels).c_str(),
-        layers_text(r).c_str(), format_count(r.nodes).c_str(), format_bytes(r.file_bytes).c_str(),
-        r.content_hash.c_str());
+    std::printf("%s: %s^3, %s voxels%s, %s nodes, %s\n  content hash %s\n",
+                printable(config.edit.output).c_str(),
+                format_resolution(uint64_t(r.grid.resolution())).c_str(),
+                format_count(r.voxels).c_str(), layers_text(r).c_str(),
+                format_count(r.nodes).c_str(), format_bytes(r.file_bytes).c_str(),
+                r.content_hash.c_str());
   return int(ExitCode::kOk);
 }
 

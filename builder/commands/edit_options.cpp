@@ -95,8 +95,7 @@ void add_pack(CLI::App* program, Command* command) {
   takes_files(app->add_option("-o,--output", config->output_path, "The .pack to write"), {".pack"})
       ->required()
       ->type_name("OUT");
-  from_to(app->add_option("--level", config->level, "Level of zstd, 1 to 19 (default: 5)"), 1,
-          kMaxPackLevel)
+  from_to(app->add_option("--level", config->level, "Level of zstd (default: 5)"), 1, kMaxPackLevel)
       ->type_name("N");
   add_selection(app, &config->selection, false);
   add_pack_resources(app, config.get());

@@ -13,6 +13,7 @@
 #include "streaming/file/atomic_file.h"
 #include "streaming/file/checksum.h"
 #include "streaming/file/command_files.h"
+#include "streaming/printable.h"
 
 namespace svdag {
 
@@ -26,7 +27,7 @@ int run(const PackCommand& config) {
   ParallelExecutor executor(threads_or_all(config.threads));
   const uint64_t bytes = pack(plain, path, config.level, &budget, &executor);
   if (!config.output.quiet)
-    std::printf("%s: %s, %.1f %% of the plain %s\n  content hash %s\n", path.c_str(),
+    std::printf("%s: %s, %.1f %% of the plain %s\n  content hash %s\n", printable(path).c_str(),
                 format_bytes(bytes).c_str(), 100 * double(bytes) / double(plain.bytes().size()),
                 format_bytes(plain.bytes().size()).c_str(),
                 to_hex(plain.header().content_hash).c_str());
@@ -42,7 +43,7 @@ int run(const UnpackCommand& config) {
   ParallelExecutor executor(threads_or_all(config.threads));
   const Header header = unpack_to(config.file, path, {&budget, folder_of(path)}, &executor);
   if (!config.output.quiet)
-    std::printf("%s: %s\n  content hash %s\n", path.c_str(),
+    std::printf("%s: %s\n  content hash %s\n", printable(path).c_str(),
                 format_bytes(header.file_bytes).c_str(), to_hex(header.content_hash).c_str());
   return int(ExitCode::kOk);
 }

@@ -9,13 +9,14 @@
 #include <string>
 
 #include "streaming/file/mapped_file.h"
+#include "streaming/printable.h"
 #include "streaming/process/interrupt.h"
 
 namespace svdag {
 namespace {
 
 int print_message(const ProgramMessages& messages, const char* sentence, int code) {
-  std::fprintf(stderr, "%s: %s\n", messages.name, sentence);
+  std::fprintf(stderr, "%s: %s\n", messages.name, printable(sentence).c_str());
   return code;
 }
 

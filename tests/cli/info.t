@@ -186,3 +186,15 @@ $ svdag build t.off -r 64 --bounds=50,50,50,60,60,60 -q -o empty.svdag
 $ svdag-verify view empty.svdag
 ! svdag-verify: empty.svdag: has no voxel to show
 ? 2
+
+## info_parts_in_memory
+# The list of parts is counted before it is made.
+$ awk 'BEGIN { print "v 0 0 0\nv 1 0 0\nv 0 1 1"; for (i = 0; i < 400000; i++) printf "o part%d\nf 1 2 3\n", i }' > many.obj
+$ svdag info many.obj --parts -m 32M
+!* svdag: *parts need * MiB in total, *
+? 5
+$ svdag info many.obj --parts --json -m 128M
+!* svdag: *parts need * MiB in total, *
+? 5
+$ svdag info many.obj --parts -m 256M | tail -n 1
+|          400,000  file:many.obj  (0, 0, 0) .. (1, 1, 1)

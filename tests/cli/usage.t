@@ -326,3 +326,43 @@ $ ls
 | r.png
 | r.svdag
 | x.svdag
+
+## usage_names_with_control_characters
+# A terminal gets no control character of a file name.
+$ name=$(printf 'a\033[31mb\nc')
+$ printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' > "$name.obj"
+$ {
+>   svdag info "$name.obj"
+>   svdag build "$name.obj" -o "$name.svdag" -r 64
+>   svdag build "$name.obj" -o "$name.svdag" -r 64 --dry-run
+>   svdag info "$name.svdag"
+>   svdag convert "$name.svdag" -o "$name.2.svdag" --layout compact
+>   svdag pack "$name.svdag" -o "$name.pack"
+>   svdag unpack "$name.pack" -o "$name.3.svdag"
+>   svdag edit "$name.svdag" -o "$name.4.svdag" --level 5
+>   svdag export "$name.svdag" -o "$name.npz"
+>   svdag import "$name.npz" -o "$name.5.svdag"
+>   svdag-verify check "$name.svdag"
+>   svdag-verify render "$name.svdag" -o "$name.png" --size 8x8
+>   svdag-verify report "$name.svdag" -o "$name.html" --size 64x36
+>   svdag-verify view "$name.svdag" --to "$name"
+> } > out 2>&1
+$ grep -c 'a?\[31mb?c' out | awk '$1 >= 12 { print "all named" }'
+| all named
+$ LC_ALL=C grep -c '[[:cntrl:]]' out
+| 0
+? 1
+
+## usage_little_memory
+# No program is ended by a library that cannot start its threads.
+$ for limit in 100 120 135 140 145 150 155 160 170 200; do
+>   for program in svdag svdag-verify svdag-trace svdag-export svdag-import; do
+>     code=0
+>     (ulimit -v $((limit * 1024)); $program --version >/dev/null 2>message) || code=$?
+>     case $code in 0|5|127) ;; *) echo "$program: $code"; cat message ;; esac
+>   done
+> done
+
+## usage_range_once
+$ svdag pack --help | grep zstd
+|   --level N                 Level of zstd, 1 to 19 (default: 5)

@@ -141,3 +141,14 @@ $ svdag-verify diff a.svdag b.svdag
 | only B    0
 | clusters  0
 | same
+
+## verify_diff_many_layers
+# The time grows with the layers, not with their square.
+$ awk 'BEGIN { for (i = 0; i < 65000; i++) { x = i % 41; y = int(i / 41) % 41; z = int(i / 1681)
+>   printf "o part%d\nv %g %g %g\nv %g %g %g\nv %g %g %g\nf -3 -2 -1\n", i, x, y, z, x + .5, y, z, x, y + .5, z } }' > many.obj
+$ svdag build many.obj -o a.svdag -r 256 --layers object -q
+$ cp a.svdag b.svdag
+$ (ulimit -t 6; svdag-verify diff a.svdag b.svdag) | tail -n 1
+| same
+$ (ulimit -t 30; svdag-verify report a.svdag -o a.html -q -j 1 --size 64x36)
+$ [ $(stat -c %s a.html) -lt 4800000 ]

@@ -1,5 +1,7 @@
 #include <algorithm>
-#include <set>
+#include <array>
+#include <map>
+#include <optional>
 
 #include "io/brick.h"
 #include "io/dag/dag_file.h"
@@ -112,11 +114,9 @@ struct DiffLayer {
   DiffCounts counts;
 };
 
-// The layer `name`; empty if the file has none of that name.
-DagView view_of(const DagFile& file, const std::string& name) {
-  const std::vector<Layer>& layers = file.layers().layers;
-  const auto found = std::ranges::find(layers, name, &Layer::name);
-  if (found != layers.end()) return file.view_of(size_t(found - layers.begin()));
+// The layer `number`; empty without a number.
+DagView view_of(const DagFile& file, std::optional<size_t> number) {
+  if (number) return file.view_of(*number);
   DagView none = file.view();
   none.brick_count = 0;
   return none;
@@ -126,12 +126,13 @@ DagView view_of(const DagFile& file, const std::string& name) {
 std::vector<DiffLayer> diff_layers(const DagFile& a, const DagFile& b) {
   std::vector<DiffLayer> result;
   if (a.layers().empty() || b.layers().empty()) return result;
-  std::set<std::string> names;
-  for (const DagFile* file : {&a, &b}) {
-    for (const Layer& layer : file->layers().layers) names.insert(layer.name);
+  std::map<std::string, std::array<std::optional<size_t>, 2>> numbers;  // in a and in b
+  for (const size_t f : {0, 1}) {
+    const std::vector<Layer>& layers = (f == 0 ? a : b).layers().layers;
+    for (size_t i = 0; i < layers.size(); ++i) numbers[layers[i].name][f] = i;
   }
-  for (const std::string& name : names) {
-    const DagView one = view_of(a, name), two = view_of(b, name);
+  for (const auto& [name, number] : numbers) {
+    const DagView one = view_of(a, number[0]), two = view_of(b, number[1]);
     result.push_back({name, DagDiff(one, two).count()});
   }
   return result;

@@ -3,6 +3,7 @@
 
 #include "io/help/command_line.h"
 #include "streaming/process/program.h"
+#include "streaming/process/terminate_handler.h"
 #include "verify/commands/options.h"
 
 namespace svdag {

@@ -10,6 +10,7 @@
 #include "streaming/file/command_files.h"
 #include "streaming/file/file.h"
 #include "streaming/memory/memory_budget.h"
+#include "streaming/printable.h"
 #include "verify/commands/commands.h"
 #include "verify/trace/cpu.h"
 #include "verify/trace/kernel/tree64.h"
@@ -182,7 +183,7 @@ int run(const RenderCommandConfig& config) {
     const std::string name = picture_name(config, frame);
     write_png(render(dag, tree.view(), camera, shading, picture, executor, progress), name);
     if (!config.common.quiet)
-      std::printf("%s: %dx%d, %s\n", name.c_str(), picture.width, picture.height,
+      std::printf("%s: %dx%d, %s\n", printable(name).c_str(), picture.width, picture.height,
                   mode_name.c_str());
   }
   return int(ExitCode::kOk);

@@ -5,6 +5,7 @@
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
 #include "streaming/file/command_files.h"
+#include "streaming/printable.h"
 #include "verify/commands/commands.h"
 #include "verify/report/report_html.h"
 #include "verify/trace/cpu.h"
@@ -87,7 +88,7 @@ int run(const ReportConfig& config) {
   output.append(page.html);
   output.commit();
   if (!config.common.quiet)
-    std::printf("%s: %s\n", config.output.c_str(),
+    std::printf("%s: %s\n", printable(config.output).c_str(),
                 !integrity.sound() ? "not sound"
                 : page.ok          ? "sound"
                                    : "sound, but a verdict is not ok");

@@ -47,6 +47,9 @@ if (!start(parent, {scene: json('scene'), tile: (id) => unpack(tiles[id])})) par
 EmbeddedViewer embed_viewer(const DagFile& file, int up, uint64_t max_bytes, Executor& executor) {
   EmbeddedViewer viewer;
   if (file.view().empty()) return viewer;
+  // The list of layers takes its share of the page, but leaves some to the tiles.
+  const std::string scene = scene_json(file, TileCutter(file, 3), {up, 1, false});
+  max_bytes = std::max(max_bytes - std::min<uint64_t>(max_bytes, scene.size()), max_bytes / 8);
   std::string tiles;
   // A level has about four times the bytes of the one above.
   for (uint32_t level = 3; level <= file.view().levels; ++level) {

@@ -16,6 +16,7 @@
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
 #include "streaming/file/command_files.h"
+#include "streaming/printable.h"
 
 namespace svdag {
 namespace {
@@ -135,8 +136,8 @@ int run(const ExportConfig& options) {
   if (config.json)
     std::fputs(report_json(config, row.format.name, part.grid, voxels).c_str(), stdout);
   else if (!config.quiet)
-    std::printf("%s: %s, %s voxels of level %d (%s^3)\n", config.output.c_str(), row.format.name,
-                format_count(voxels).c_str(), part.grid.levels,
+    std::printf("%s: %s, %s voxels of level %d (%s^3)\n", printable(config.output).c_str(),
+                row.format.name, format_count(voxels).c_str(), part.grid.levels,
                 format_resolution(uint64_t(part.grid.resolution())).c_str());
   return int(ExitCode::kOk);
 }

@@ -7,6 +7,7 @@
 #include "io/units.h"
 #include "streaming/process/interrupt.h"
 #include "streaming/process/program.h"
+#include "streaming/process/terminate_handler.h"
 
 namespace svdag {
 namespace {

@@ -3,6 +3,7 @@
 #include "builder/commands/commands.h"
 #include "builder/farm/engines/run_local.h"
 #include "builder/farm/plan/plan_folder.h"
+#include "streaming/printable.h"
 #include "streaming/process/interrupt.h"
 #include "streaming/process/shell.h"
 #include "streaming/process/terminal.h"
@@ -23,10 +24,12 @@ int run(const RunCommand& config) {
     std::vector<std::string> again = {"svdag", "run", config.plan};
     if (config.processes != 0) again.insert(again.end(), {"-j", std::to_string(config.processes)});
     if (!config.scratch.empty()) again.push_back("--scratch=" + config.scratch);
-    std::fprintf(stderr, "svdag: stopped; to continue: %s\n", shell_words(again).c_str());
+    std::fprintf(stderr, "svdag: stopped; to continue: %s\n",
+                 printable(shell_words(again)).c_str());
     return 128 + interrupted.signal;
   }
-  if (!config.output.quiet) std::printf("%s\n", plan.path(plan.steps.back().output).c_str());
+  if (!config.output.quiet)
+    std::printf("%s\n", printable(plan.path(plan.steps.back().output)).c_str());
   return int(ExitCode::kOk);
 }
 

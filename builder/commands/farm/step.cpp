@@ -11,6 +11,7 @@
 #include "streaming/error.h"
 #include "streaming/file/file.h"
 #include "streaming/file/file_folder.h"
+#include "streaming/printable.h"
 #include "streaming/process/interrupt.h"
 #include "streaming/process/shell.h"
 
@@ -49,8 +50,9 @@ void warn_of_full_disk(const PlanStep& step, const std::string& output,
   const auto warn = [&](const std::string& disk, uint64_t bytes) {
     const uint64_t free = free_bytes_of(disk);
     if (bytes > free)
-      std::fprintf(stderr, "svdag: %s: %s is predicted to write about %s here, and only %s is free\n",
-                   disk.c_str(), step.name.c_str(), format_bytes(bytes).c_str(),
+      std::fprintf(stderr,
+                   "svdag: %s: %s is predicted to write about %s here, and only %s is free\n",
+                   printable(disk).c_str(), step.name.c_str(), format_bytes(bytes).c_str(),
                    format_bytes(free).c_str());
   };
   if (scratch.empty()) return warn(folder, step.predicted.output + step.predicted.scratch);
@@ -76,12 +78,12 @@ int do_step(const Plan& plan, const PlanStep& step, const StepConfig& config, si
     std::fprintf(stderr, "svdag: %s stopped; %s: %s\n", step.name.c_str(),
                  interrupted.resumable ? "its work is saved; to continue"
                                        : "no work was saved; to begin again",
-                 command_of(plan, step, config, threads).c_str());
+                 printable(command_of(plan, step, config, threads)).c_str());
     return 128 + interrupted.signal;
   }
   progress.finish();
   if (output.quiet) return int(ExitCode::kOk);
-  std::printf("%s: %s, %s, content %s\n", report.output.c_str(),
+  std::printf("%s: %s, %s, content %s\n", printable(report.output).c_str(),
               report.done_before ? "already done" : (step.name + " is done").c_str(),
               format_bytes(report.receipt.bytes).c_str(), report.receipt.content_hash.c_str());
   if (output.verbose)

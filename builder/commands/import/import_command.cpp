@@ -23,6 +23,7 @@
 #include "streaming/file/atomic_file.h"
 #include "streaming/file/command_files.h"
 #include "streaming/file/file_ending.h"
+#include "streaming/printable.h"
 
 namespace svdag {
 namespace {
@@ -168,7 +169,8 @@ int run(const ImportCommandConfig& config) {
     std::fputs(report_json(report, config.import.output).c_str(), stdout);
   else if (!config.quiet)
     std::printf("%s: %s, %s voxels of %s^3%s, %s DAG nodes, %s\n  content hash %s\n",
-                config.import.output.c_str(), row.name, format_count(report.voxels).c_str(),
+                printable(config.import.output).c_str(), row.name,
+                format_count(report.voxels).c_str(),
                 format_resolution(uint64_t(report.grid.resolution())).c_str(),
                 layers_text(report).c_str(), format_count(report.nodes).c_str(),
                 format_bytes(report.file_bytes).c_str(), report.content_hash.c_str());

@@ -8,6 +8,7 @@
 #include "streaming/counts.h"
 #include "streaming/process/interrupt.h"
 #include "streaming/process/program.h"
+#include "streaming/process/terminate_handler.h"
 
 namespace svdag {
 namespace {

@@ -17,6 +17,7 @@
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/checksum.h"
+#include "streaming/printable.h"
 
 namespace svdag {
 namespace {
@@ -140,7 +141,7 @@ void info_dag(const InfoCommand& config) {
   }
   const Header& h = file.header();
   const Grid grid = file.grid();
-  std::printf("%s: %s^3 voxels, rule %s%s\n", file.path().c_str(),
+  std::printf("%s: %s^3 voxels, rule %s%s\n", printable(file.path()).c_str(),
               format_resolution(uint64_t(grid.resolution())).c_str(), rule_name(file.rule()),
               file.layout() == Layout::kPlain ? "" : ", compact layout");
   std::printf("  voxel size %s, corner (%s, %s, %s)%s\n", format_double(h.voxel_size).c_str(),

@@ -6,6 +6,7 @@
 #include "builder/farm/planner/print_plan.h"
 #include "io/units.h"
 #include "streaming/error.h"
+#include "streaming/printable.h"
 
 namespace svdag {
 
@@ -17,7 +18,7 @@ void info_plan(const InfoCommand& config) {
   for (const PlanStep& step : plan.steps)
     done += output_state(plan, step, plan.path(step.output), false) == OutputState::kValid;
   for (const PlanInput& input : plan.inputs)
-    std::printf("  input %s, %s, content %s\n", input.path.c_str(),
+    std::printf("  input %s, %s, content %s\n", printable(input.path).c_str(),
                 format_bytes(input.bytes).c_str(), input.hash.c_str());
   std::printf("  %zu of %zu steps are done\n", done, plan.steps.size());
 }

@@ -6,6 +6,7 @@
 #include "builder/workspace/memory_shares.h"
 #include "io/json_text.h"
 #include "io/units.h"
+#include "streaming/printable.h"
 
 namespace svdag {
 namespace {
@@ -50,7 +51,7 @@ void print_text(const RunFile& run) {
   const Point corner = run.grid().corner();
   uint64_t nodes = 0;
   for (const uint64_t count : h.keys) nodes += count;
-  std::printf("%s: a run of %.4g %% of %s^3 voxels, rule %s\n", run.path().c_str(),
+  std::printf("%s: a run of %.4g %% of %s^3 voxels, rule %s\n", printable(run.path()).c_str(),
               100 * share_of(run), format_resolution(uint64_t(run.grid().resolution())).c_str(),
               rule_name(run.rule()));
   std::printf("  voxel size %s, corner (%s, %s, %s)%s\n", format_double(h.voxel_size).c_str(),

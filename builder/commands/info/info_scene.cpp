@@ -28,8 +28,26 @@ struct MeshPart {
   Box bounds;
 };
 
+// Counts the memory of the list of parts, in steps.
+class PartsMemory {
+ public:
+  // JSON: a text of each part is made as well.
+  PartsMemory(MemoryBudget* budget, bool json) : reservation_(budget, 0), json_(json) {}
+  void add(const std::string& name) {
+    // Measured: 240 bytes for each part in the list and its index, 610 for its JSON.
+    needed_ += 240 + 2 * name.size() + (json_ ? 640 + 2 * name.size() : 0);
+    if (needed_ > reservation_.bytes()) reservation_.resize(needed_ + kStep, "parts");
+  }
+
+ private:
+  static constexpr uint64_t kStep = 1 << 20;
+  MemoryBudget::Reservation reservation_;
+  uint64_t needed_ = 0;
+  bool json_;
+};
+
 // The objects in order of appearance, then the materials, then the files.
-std::vector<MeshPart> list_parts(const Scene& scene) {
+std::vector<MeshPart> list_parts(const Scene& scene, PartsMemory* memory) {
   std::vector<MeshPart> parts;
   std::map<std::pair<PartKind, std::string>, size_t> index_of;
   scene.stream([&](const TriangleBatch& batch) {
@@ -37,7 +55,10 @@ std::vector<MeshPart> list_parts(const Scene& scene) {
     for (const Triangle& t : batch.triangles) bounds.add(t);
     const auto add = [&](PartKind kind, std::string_view name) {
       const auto [at, added] = index_of.emplace(std::pair(kind, name), parts.size());
-      if (added) parts.push_back({kind, std::string(name), 0, {}});
+      if (added) {
+        memory->add(at->first.second);
+        parts.push_back({kind, std::string(name), 0, {}});
+      }
       parts[at->second].triangles += batch.triangles.size();
       parts[at->second].bounds.add(bounds);
     };
@@ -131,7 +152,7 @@ void print_closedness(const Closedness& closed) {
 void print_text(const InfoCommand& config, const Box& box, const SceneCounts& counts,
                 const MeshStats& stats, const Closedness& closed,
                 const std::vector<MeshPart>& parts) {
-  std::printf("%s", config.scene.paths.front().c_str());
+  std::printf("%s", printable(config.scene.paths.front()).c_str());
   if (config.scene.paths.size() > 1) std::printf(" and %zu more", config.scene.paths.size() - 1);
   std::printf(": %s triangles, %s positions, %s components\n",
               format_count(stats.triangles).c_str(), format_count(stats.positions).c_str(),
@@ -164,7 +185,8 @@ void info_scene(const InfoCommand& config) {
   SceneCounts counts;
   const Box box = scene.bounds(&counts);
   const MeshStats stats = compute_mesh_stats(scene, &budget);
-  const auto parts = config.parts ? list_parts(scene) : std::vector<MeshPart>();
+  PartsMemory memory(&budget, config.json);
+  const auto parts = config.parts ? list_parts(scene, &memory) : std::vector<MeshPart>();
   const Closedness closed = closedness_of(scene, box);
   config.json ? print_json(config, box, counts, stats, closed, parts)
               : print_text(config, box, counts, stats, closed, parts);

@@ -8,6 +8,7 @@
 #include "builder/farm/plan/step_name.h"
 #include "streaming/file/atomic_file.h"
 #include "streaming/file/file.h"
+#include "streaming/printable.h"
 
 namespace svdag {
 namespace {
@@ -94,7 +95,8 @@ std::string openjd_template(const Plan& plan, const SubmitConfig& options) {
   config.program = program_on_hosts(options.program);
   if (config.template_path.empty()) config.template_path = plan.path("openjd.json");
   if (!options.scratch.empty()) config.scratch = absolute_unresolved(options.scratch);
-  for (const std::string& path : {plan.folder, config.template_path, config.program, config.scratch})
+  for (const std::string& path :
+       {plan.folder, config.template_path, config.program, config.scratch})
     require_utf8(path);
   Json json = {{"specificationVersion", "jobtemplate-2023-09"}, {"name", job_name(plan)}};
   json["parameterDefinitions"] =
@@ -130,7 +132,7 @@ void submit_openjd(const Plan& plan, const SubmitConfig& config) {
   AtomicFile file(path);
   file.append(openjd_template(plan, config));
   file.commit();
-  if (!config.quiet) std::printf("%s\n", path.c_str());
+  if (!config.quiet) std::printf("%s\n", printable(path).c_str());
 }
 
 }  // namespace svdag

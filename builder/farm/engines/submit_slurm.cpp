@@ -10,6 +10,7 @@
 #include "builder/farm/plan/step_name.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
+#include "streaming/printable.h"
 #include "streaming/process/child_process.h"
 #include "streaming/process/interrupt.h"
 #include "streaming/process/shell.h"
@@ -170,11 +171,12 @@ std::string Submission::script_of(const Job& job) const {
   std::string command = shell_word(program_on_hosts(config_.program));
   for (const std::string& word : words) command += " " + shell_word(word);
   if (is_array(job))
-    command += " \"" +
-               shard_name("$((SLURM_ARRAY_TASK_ID + " +
-                          std::to_string(number_of(job.steps.front()) - task_of(job.steps.front())) +
-                          "))") +
-               "\"";
+    command +=
+        " \"" +
+        shard_name("$((SLURM_ARRAY_TASK_ID + " +
+                   std::to_string(number_of(job.steps.front()) - task_of(job.steps.front())) +
+                   "))") +
+        "\"";
   if (!config_.scratch.empty())
     command += " --scratch " + shell_word(absolute_unresolved(config_.scratch));
   return "#!/bin/sh\n" + command +
@@ -293,7 +295,8 @@ void Submission::wait() const {
     if (count++ < 3) missing += (missing.empty() ? "" : ", ") + step.name;
   }
   if (count == 0) {
-    if (!config_.quiet) std::printf("%s is done\n", plan_.path(plan_.steps.back().output).c_str());
+    if (!config_.quiet)
+      std::printf("%s is done\n", printable(plan_.path(plan_.steps.back().output)).c_str());
     return;
   }
   throw Error(ExitCode::kOutput, "the jobs ended, but " + std::to_string(count) +

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "io/units.h"
+#include "streaming/printable.h"
 #include "streaming/process/shell.h"
 
 namespace svdag {
@@ -51,7 +52,7 @@ void print_steps(const Plan& plan) {
     const Prediction& p = step.predicted;
     std::vector<std::string> words = plan.command(step);
     words.insert(words.begin(), "svdag");
-    const std::string command = shell_words(words);
+    const std::string command = printable(shell_words(words));
     std::printf("  %-12s %8.2f %8.2f %10s %10s %10s  %s\n", step.name.c_str(), p.cpu, p.seconds,
                 format_bytes(p.memory).c_str(), format_bytes(p.output).c_str(),
                 format_bytes(p.scratch).c_str(), plan.folder.empty() ? "" : command.c_str());
@@ -92,7 +93,7 @@ void print_bake_json(const Plan& plan, const FreeDisk& disk) {
 void print_bake(const Plan& plan, const FreeDisk& disk) {
   const Prediction& p = plan.steps.front().predicted;
   const double seconds = plan.one_bake_cpu / double(plan.steps.front().threads);
-  std::printf("%s: %s^3, %s triangles in %s cells\n", disk.output.c_str(),
+  std::printf("%s: %s^3, %s triangles in %s cells\n", printable(disk.output).c_str(),
               format_resolution(uint64_t(plan.grid.resolution())).c_str(),
               format_count(plan.counts.scene.triangles).c_str(), format_count(plan.cells).c_str());
   std::printf("  about %.2f CPU seconds, %.2f s on %zu thread%s\n", plan.one_bake_cpu, seconds,
