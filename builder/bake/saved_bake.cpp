@@ -10,7 +10,7 @@ namespace {
 
 // Changes when any record does, those of builder/split/bin_record.h included. Journals without a
 // layout begin with the length of their description instead, a text of several lines.
-constexpr uint32_t kLayout = 6;
+constexpr uint32_t kLayout = 7;
 
 // Writes a field in a form without padding or bool.
 struct PutField {

@@ -6,8 +6,6 @@ Usage: view_test.py PROGRAMS [TEST...]. With SVDAG_SCENES the scenes are real on
 figures of docs/viewing.md.
 """
 import base64
-import concurrent.futures
-import contextlib
 import functools
 import http.client
 import http.server
@@ -16,7 +14,6 @@ import os
 import pathlib
 import shutil
 import signal
-import socket
 import subprocess
 import sys
 import tempfile
@@ -98,11 +95,9 @@ def differing(shown, hits):
 
 
 class Server:
-    def __init__(self, file, *options, environment=None):
-        """With an environment, the page is opened."""
-        no_open = ["--no-open"] if environment is None else []
-        self.process = subprocess.Popen([PROGRAMS / "svdag-verify", "view", file, *no_open, *options], text=True,
-                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, env={**os.environ, **(environment or {})})
+    def __init__(self, file, *options):
+        self.process = subprocess.Popen([PROGRAMS / "svdag-verify", "view", file, "--no-open", *options],
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.url = self.process.stdout.readline().strip()
         if not self.url:
             raise AssertionError(self.process.stderr.read())
@@ -341,71 +336,14 @@ class Serving(unittest.TestCase):
             self.assertEqual(server.get(token + "scene.json")[0], 200)
             for path in ["/", "/x/", token[:-2] + "/", "/" + "0" * 32 + "/scene.json", token.upper() + "x", "//" + token[1:]]:
                 self.assertEqual(server.get(path)[0], 403, path)
-            for host in ["evil.example", "evil.example:80", "127.0.0.1.evil.example", "localhost.evil.example:1", "x127.0.0.1",
-                         "127.0.0.1:80.evil.example", "[::1].evil.example:80"]:
+            for host in ["evil.example", "evil.example:80", "127.0.0.1.evil.example", "localhost.evil.example:1", "x127.0.0.1"]:
                 self.assertEqual(server.get(token, host)[0], 403, host)
             self.assertEqual(server.get(token, "localhost:1234")[0], 200)  # through a tunnel
-            self.assertEqual(server.get(token, "[::1]:80")[0], 200)
-            self.assertEqual(server.get(token)[1]["Content-Security-Policy"], "frame-ancestors 'none'")
             for path in ["tiles/", "tiles/0", "tiles/2", "tiles/-1", "tiles/99999999999999999999", "tiles/1x", "../../etc/passwd",
                          "tiles/../scene.json", "%2e%2e/", "nothing"]:
                 self.assertEqual(server.get(token + path)[0], 404, path)
             for method in ["POST", "PUT", "DELETE", "OPTIONS"]:
                 self.assertIn(server.get(token, method=method)[0], (405, 413), method)
-
-    def test_strangers_hold_neither_memory_nor_workers(self):
-        with Server(self.file) as server:
-            port = int(server.url.split(":")[2].split("/")[0])
-
-            def connect():
-                return socket.create_connection(("127.0.0.1", port), timeout=20)
-
-            for flood in (b"GET " + server.path.encode() + b" HTTP/1.1\r\n" + b"a: b\r\n" * 5000, b"x" * 200_000):
-                with connect() as long:
-                    with contextlib.suppress(ConnectionError):
-                        long.sendall(flood)
-                    with contextlib.suppress(ConnectionError):
-                        self.assertIn(long.recv(100)[:12], (b"", b"HTTP/1.1 431"))
-            slow = [connect() for _ in range(150)]
-            started = time.monotonic()
-            for i in range(5):
-                for each in slow:
-                    with contextlib.suppress(ConnectionError):
-                        each.sendall(b"GET / HTTP/1.1\r\n" if i == 0 else b"a: b\r\n")
-                self.assertEqual(server.get(server.path + "scene.json")[0], 200)
-            self.assertLess(time.monotonic() - started, 3)
-            for each in slow:
-                each.settimeout(20)
-                with contextlib.suppress(ConnectionError):
-                    self.assertEqual(each.recv(1), b"", "ended by its deadline")
-                each.close()
-
-    def test_a_thousand_tiles_at_once_are_answered(self):
-        with Server(self.file) as server, concurrent.futures.ThreadPoolExecutor(200) as many:
-            started = time.monotonic()
-            answers = list(many.map(lambda _: server.get(server.path + "tiles/1")[0], range(1000)))
-            self.assertEqual(answers, [200] * 1000)
-            self.assertLess(time.monotonic() - started, 20)
-
-    @unittest.skipIf(shutil.which("sh") is None, "needs a shell")
-    def test_the_token_is_no_argument_of_the_browser(self):
-        with tempfile.TemporaryDirectory() as name:
-            opener = pathlib.Path(name, "xdg-open")
-            opener.write_text(f'#!/bin/sh\necho "$1" > {name}/argument\nls -l "$1" > {name}/mode\ncat "$1" > {name}/page\n')
-            opener.chmod(0o755)
-            environment = {"PATH": f"{name}:{os.environ['PATH']}", "DISPLAY": ":0", "TMPDIR": name}
-            with Server(self.file, environment=environment) as server:
-                for _ in range(100):
-                    if pathlib.Path(name, "page").exists() and pathlib.Path(name, "page").read_text():
-                        break
-                    time.sleep(0.05)
-                argument = pathlib.Path(name, "argument").read_text().strip()
-                self.assertNotIn(server.path.strip("/"), argument)
-                self.assertTrue(pathlib.Path(name, "mode").read_text().startswith("-rw-------"))
-                self.assertIn(server.url, pathlib.Path(name, "page").read_text())
-                server.process.send_signal(signal.SIGINT)
-                server.process.wait(timeout=20)
-            self.assertFalse(pathlib.Path(argument).exists())
 
     def test_what_is_there_already_is_not_sent_again(self):
         with Server(self.file) as server:
@@ -513,14 +451,6 @@ class Folders(unittest.TestCase):
         (other / "notes.txt").write_text("mine")
         self.assertIn("not empty", program("svdag-verify", "view", self.file, "--to", other, code=2))
         self.assertIn("another", program("svdag-verify", "view", self.file, "--to", self.folder, "--level", "10", code=2))
-
-    def test_what_is_not_of_the_page_is_not_replaced(self):
-        for name in ("index.html", "notes.txt", "tiles/1000000", "tiles/1.bak"):
-            folder = FOLDER / ("changed " + name.replace("/", " "))
-            shutil.copytree(self.folder, folder)
-            (folder / name).write_text("mine")
-            self.assertIn(f'"{name}", which is not of this page', program("svdag-verify", "view", self.file, "--to", folder, code=2))
-            self.assertEqual((folder / name).read_text(), "mine")
 
     def test_a_damaged_tile_is_reported(self):
         folder = FOLDER / "damaged"

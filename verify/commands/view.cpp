@@ -1,4 +1,3 @@
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -6,16 +5,16 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <optional>
 
 #include "io/dag/open_dag.h"
 #include "io/units.h"
 #include "streaming/error.h"
+#include "streaming/printable.h"
 #include "streaming/process/interrupt.h"
 #include "verify/commands/commands.h"
 #include "verify/view/folder.h"
+#include "verify/view/redirect_page.h"
 #include "verify/view/server.h"
 
 namespace svdag {
@@ -41,41 +40,19 @@ void parse_address(std::string text, ServerConfig* server) {
   server->token = token;
 }
 
-// A page that leads to the URL, readable only by this user: arguments of programs, such as a
-// browser's, are visible to all.
-class RedirectPage {
- public:
-  explicit RedirectPage(const std::string& url) {
-    std::string folder = (std::filesystem::temp_directory_path() / "svdag-view-XXXXXX").string();
-    if (mkdtemp(folder.data()) == nullptr) return;
-    folder_ = folder;
-    const mode_t mask = umask(0077);
-    std::ofstream(path()) << "<!doctype html><meta http-equiv=\"refresh\" content=\"0;url=" << url
-                          << "\">\n";
-    umask(mask);
-  }
-  ~RedirectPage() {
-    std::error_code ignored;
-    if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
-  }
-  RedirectPage(const RedirectPage&) = delete;
+bool has_desktop() {
+  return std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
+}
 
-  // Empty if it could not be written.
-  std::string path() const { return folder_.empty() ? "" : folder_ + "/open.html"; }
-
- private:
-  std::string folder_;  // of mode 0700
-};
-
-// Opens the page in the user's browser.
-void open_browser(const std::string& url) {
+// Opens a page in the user's browser.
+void open_browser(const std::string& page) {
   if (const pid_t child = fork(); child == 0) {
     if (fork() == 0) {  // not our child, so that no zombie remains
       setsid();         // Ctrl-C in the terminal does not end the browser
       signal(SIGPIPE, SIG_DFL);
       std::freopen("/dev/null", "w", stdout);
       std::freopen("/dev/null", "w", stderr);
-      execlp("xdg-open", "xdg-open", url.c_str(), nullptr);
+      execlp("xdg-open", "xdg-open", page.c_str(), nullptr);
     }
     _exit(0);
   } else if (child > 0) {
@@ -90,14 +67,14 @@ int write_to(const std::string& folder, const ViewConfig& config, const DagFile&
   const TileList list = list_tiles(cutter);
   const uint64_t estimate = estimate_bytes(cutter, list, executor);
   if (!config.common.quiet) {
-    std::printf("%s: %s tiles, about %s\n", folder.c_str(), format_count(list.cubes.size()).c_str(),
-                format_bytes(estimate).c_str());
+    std::printf("%s: %s tiles, about %s\n", printable(folder).c_str(),
+                format_count(list.cubes.size()).c_str(), format_bytes(estimate).c_str());
     std::fflush(stdout);
   }
   const uint64_t bytes = write_folder(folder, file, cutter, list, up, executor, progress);
   progress.finish();
   if (!config.common.quiet)
-    std::printf("%s: written, %s\n", folder.c_str(), format_bytes(bytes).c_str());
+    std::printf("%s: written, %s\n", printable(folder).c_str(), format_bytes(bytes).c_str());
   return int(ExitCode::kOk);
 }
 
@@ -115,14 +92,11 @@ int view(const ViewConfig& config) {
   if (config.to) return write_to(*config.to, config, file, cutter, config.up);
   server.up = config.up;
   server.keep = config.keep;
-  std::optional<RedirectPage> redirect;  // while the server runs
+  std::optional<RedirectPage> page;  // until the end: a browser may take long to start
   serve(file, cutter, server, [&](const std::string& url) {
     std::printf("%s\n", url.c_str());
     std::fflush(stdout);
-    const bool has_desktop = std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY");
-    if (!config.open || !has_desktop) return;
-    redirect.emplace(url);
-    if (!redirect->path().empty()) open_browser(redirect->path());
+    if (config.open && has_desktop()) open_browser(page.emplace(url).path());
   });
   return int(ExitCode::kOk);
 }

@@ -1,11 +1,11 @@
 #include "verify/view/folder.h"
 
-#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
 #include <filesystem>
+#include <map>
 #include <unordered_map>
 
 #include "streaming/error.h"
@@ -32,39 +32,55 @@ void create_folder(const std::string& path) {
   if (error) throw Error(ExitCode::kOutput, "cannot create: " + error.message(), path);
 }
 
-// Refuses a folder with a file that this page would not have, or has otherwise.
-void check_entries(const std::string& folder, size_t tiles) {
-  const auto refuse = [&](const std::string& name) {
-    fail_usage(folder + ": holds \"" + name +
-               "\", which is not of this page; choose another folder");
-  };
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    const auto is_same = [&](const PageFile& page) {
-      return page.name == name && File::open_read(entry.path().string()).text() == page.text;
-    };
-    if (name != "tiles" && name != "scene.json" && std::ranges::none_of(page_files(), is_same))
-      refuse(name);
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail_foreign(const fs::path& path) {
+  fail_usage(path.string() + ": is not a file of this page: remove it, or choose another folder");
+}
+
+// Whether `name` is that of a tile: 1 .. count.
+bool is_tile_name(const std::string& name, uint64_t count) {
+  uint64_t id = 0;
+  std::from_chars(name.data(), name.data() + name.size(), id);
+  return id >= 1 && id <= count && name == std::to_string(id);
+}
+
+// Checks that the folder of an earlier run holds only files that this run writes as well.
+void check_folder(const std::string& folder, uint64_t tiles) {
+  std::map<std::string, std::string_view> pages;
+  for (const PageFile& page : page_files()) pages.emplace(page.name, page.text);
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename();
+    if (name == "scene.json" ||
+        (name == "tiles" && entry.symlink_status().type() == fs::file_type::directory))
+      continue;
+    const auto page = pages.find(name);
+    if (page == pages.end() || entry.symlink_status().type() != fs::file_type::regular)
+      fail_foreign(entry.path());
+    const File file = File::open_read(entry.path());
+    if (file.size() != page->second.size() || file.text() != page->second)
+      fail_usage(entry.path().string() +
+                 ": differs from the page that this program writes: remove it, or choose another "
+                 "folder");
   }
-  if (!std::filesystem::exists(folder + "/tiles")) return;
-  for (const auto& entry : std::filesystem::directory_iterator(folder + "/tiles")) {
-    const std::string name = entry.path().filename().string();
-    uint64_t id = 0;
-    const auto read = std::from_chars(name.data(), name.data() + name.size(), id);
-    if (read.ec != std::errc() || std::to_string(id) != name || id < 1 || id > tiles)
-      refuse("tiles/" + name);
+  if (!fs::exists(folder + "/tiles")) return;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder + "/tiles")) {
+    if (entry.symlink_status().type() != fs::file_type::regular ||
+        !is_tile_name(entry.path().filename(), tiles))
+      fail_foreign(entry.path());
   }
 }
 
-// Creates the folder and its scene.json; accepts one that holds the same.
-void open_folder(const std::string& folder, const std::string& scene, size_t tiles) {
+// Creates the folder and its scene.json; accepts one of an earlier run for the same scene.
+void open_folder(const std::string& folder, const std::string& scene, uint64_t tiles) {
   const std::string scene_path = folder + "/scene.json";
   create_folder(folder);
-  if (std::filesystem::exists(scene_path)) {
-    if (File::open_read(scene_path).text() != scene)
+  if (fs::exists(scene_path)) {
+    const File file = File::open_read(scene_path);
+    if (file.size() != scene.size() || file.text() != scene)
       fail_usage(folder + ": holds the page of another scene or level; choose another folder");
-    check_entries(folder, tiles);
-  } else if (!std::filesystem::is_empty(folder)) {
+    check_folder(folder, tiles);
+  } else if (!fs::is_empty(folder)) {
     fail_usage(folder + ": is not empty and not such a page; choose another folder");
   } else {
     write_whole(folder, "scene.json", scene);
@@ -74,7 +90,7 @@ void open_folder(const std::string& folder, const std::string& scene, size_t til
 
 // The bytes of a tile that an earlier run has written; 0 without a valid one.
 uint64_t valid_bytes(const std::string& path) {
-  if (!std::filesystem::exists(path)) return 0;
+  if (!fs::exists(path)) return 0;
   const std::string text = File::open_read(path).text();
   return decode_tile(std::as_bytes(std::span(text))) ? text.size() : 0;
 }

@@ -1,20 +1,18 @@
 #include "verify/view/server.h"
 
-#include <fcntl.h>
 #include <httplib.h>
-#include <poll.h>
 #include <sodium.h>
-#include <sys/eventfd.h>
 
-#include <atomic>
 #include <charconv>
-#include <mutex>
+#include <condition_variable>
+#include <deque>
 #include <thread>
-#include <vector>
 
 #include "streaming/error.h"
 #include "streaming/file/checksum.h"
 #include "streaming/process/interrupt.h"
+#include "verify/view/connections.h"
+#include "verify/view/request_head.h"
 #include "verify/view/tile_file.h"
 
 namespace svdag {
@@ -24,6 +22,8 @@ using Clock = std::chrono::steady_clock;
 using httplib::Request;
 using httplib::Response;
 
+constexpr size_t kWorkers = 16;
+
 std::string random_token() {
   unsigned char bytes[16];
   randombytes_buf(bytes, sizeof bytes);
@@ -31,256 +31,164 @@ std::string random_token() {
   return sodium_bin2hex(hex, sizeof hex, bytes, sizeof bytes);
 }
 
-// Whether a Host header names this machine; any port, because tunnels have their own.
-bool is_this_machine(const std::string& host) {
-  const size_t bracket = host.starts_with('[') ? host.find(']') : 0;
-  const size_t end = std::min(host.find(':', std::min(bracket, host.size())), host.size());
-  const std::string name = host.substr(0, end), port = host.substr(end);
-  const bool is_port = port.empty() || port.find_first_not_of("0123456789", 1) == port.npos;
-  return is_port && (name == "127.0.0.1" || name == "localhost" || name == "[::1]");
+bool send_all(int socket, std::string_view text, int flags = 0) {
+  while (!text.empty()) {
+    const ssize_t sent = ::send(socket, text.data(), text.size(), MSG_NOSIGNAL | flags);
+    if (sent < 0 && errno == EINTR) continue;
+    if (sent <= 0) return false;
+    text.remove_prefix(size_t(sent));
+  }
+  return true;
 }
 
-bool is_equal(const std::string& a, const std::string& b) {
-  return a.size() == b.size() && sodium_memcmp(a.data(), b.data(), a.size()) == 0;
-}
-
-// Knows how long no page has been open.
-class OpenPages {
+// A request that has been read, and the connection for its answer.
+class AdmittedRequest : public httplib::Stream {
  public:
-  void open() {
-    ++count_;
-    was_open_ = true;
-  }
-  void close() {
-    last_ = Clock::now().time_since_epoch().count();
-    --count_;
-  }
-  bool gone_for(std::chrono::seconds time) const {
-    return was_open_ && count_ == 0 &&
-           Clock::now().time_since_epoch() - Clock::duration(last_) >= time;
-  }
+  AdmittedRequest(Socket connection, std::string received)
+      : connection_(std::move(connection)), received_(std::move(received)) {}
 
- private:
-  std::atomic<int> count_ = 0;
-  std::atomic<bool> was_open_ = false;
-  std::atomic<Clock::rep> last_ = 0;
-};
+  bool is_read() const { return at_ == received_.size(); }
+  Socket take_connection() { return std::move(connection_); }
 
-// A connection whose next request has not arrived whole.
-struct Connection {
-  int socket;
-  std::string head;  // what has arrived
-  Clock::time_point deadline;
-};
-
-// A request that has arrived, for httplib. Its answer goes to the socket.
-class RequestStream : public httplib::Stream {
- public:
-  explicit RequestStream(Connection* connection) : connection_(*connection) {}
-  ~RequestStream() override { connection_.head.erase(0, at_); }
-
-  bool is_readable() const override { return at_ < connection_.head.size(); }
-  bool is_writable() const override {
-    constexpr int kWaitMs = 5000;
-    pollfd ready{connection_.socket, POLLOUT, 0};
-    return poll(&ready, 1, kWaitMs) == 1 && (ready.revents & (POLLERR | POLLHUP)) == 0;
-  }
+  bool is_readable() const override { return !is_read(); }
+  bool is_writable() const override { return true; }
   ssize_t read(char* to, size_t size) override {
-    const size_t n = connection_.head.copy(to, size, at_);
-    at_ += n;
-    return ssize_t(n);
+    const size_t copied = received_.copy(to, size, at_);
+    at_ += copied;
+    return ssize_t(copied);
   }
-  ssize_t write(const char* from, size_t size) override {
-    if (!is_writable()) return -1;
-    return send(connection_.socket, from, size, MSG_NOSIGNAL);
+  ssize_t write(const char* text, size_t size) override {
+    return send_all(connection_.get(), {text, size}) ? ssize_t(size) : -1;
   }
   void get_remote_ip_and_port(std::string&, int&) const override {}
   void get_local_ip_and_port(std::string&, int&) const override {}
-  socket_t socket() const override { return connection_.socket; }
+  socket_t socket() const override { return connection_.get(); }
 
  private:
-  Connection& connection_;
+  Socket connection_;
+  std::string received_;
   size_t at_ = 0;
 };
 
-// An HTTP server whose worker threads see only whole requests with the token. One thread reads the
-// heads of all connections; heads are bounded in bytes and time, so a stranger who sends much,
-// slowly or often holds no worker and little memory.
-class BoundedServer : public httplib::Server {
+// Threads that take requests from a queue. Their end drops the requests that are left.
+class Workers {
  public:
-  // `root`: what the path of a request must begin with.
-  explicit BoundedServer(std::string root) : root_(std::move(root)), pool_(64) {
-    new_task_queue = [] { return new RunAtOnce; };
-    reader_ = std::thread([this] { read_heads(); });
-  }
-  ~BoundedServer() override { end(); }
+  using Work = std::function<void(AdmittedRequest&)>;
 
-  // After stop(): ends all connections.
-  void end() {
-    if (!reader_.joinable()) return;
-    ending_ = true;
-    wake();
-    reader_.join();
-    pool_.shutdown();
-    for (const Connection& each : incoming_) close(each.socket);
-    incoming_.clear();
-    close(wake_);
+  explicit Workers(Work work) : work_(std::move(work)) {
+    try {
+      while (threads_.size() < kWorkers)
+        threads_.emplace_back([this](const std::stop_token& stop) { run(stop); });
+    } catch (const std::system_error&) {  // out of threads: some are enough
+      if (threads_.empty()) throw;
+    }
+  }
+  void add(AdmittedRequest request) {
+    {
+      const std::lock_guard lock(mutex_);
+      queue_.push_back(std::move(request));
+    }
+    arrived_.notify_one();
   }
 
  private:
-  static constexpr size_t kMaxHead = size_t(1) << 14;
-  static constexpr size_t kMaxConnections = 512;
-  static constexpr std::chrono::seconds kHeadTime{5}, kIdleTime{30};
-
-  struct RunAtOnce : httplib::TaskQueue {
-    void enqueue(std::function<void()> task) override { task(); }
-    void shutdown() override {}
-  };
-
-  // Called by httplib for each connection that it accepts.
-  bool process_and_close_socket(socket_t socket) override {
-    fcntl(socket, F_SETFL, fcntl(socket, F_GETFL) | O_NONBLOCK);
-    add({socket, {}, Clock::now() + kHeadTime});
-    return true;
-  }
-  void add(Connection connection) {
-    const std::lock_guard lock(mutex_);
-    incoming_.push_back(std::move(connection));
-    wake();
-  }
-  void wake() { eventfd_write(wake_, 1); }
-
-  void read_heads() {
-    std::vector<Connection> waiting;
-    while (!ending_) {
-      {
-        const std::lock_guard lock(mutex_);
-        std::ranges::move(incoming_, std::back_inserter(waiting));
-        incoming_.clear();
+  void run(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    while (arrived_.wait(lock, stop, [this] { return !queue_.empty(); }) &&
+           !stop.stop_requested()) {
+      AdmittedRequest request = std::move(queue_.front());
+      queue_.pop_front();
+      lock.unlock();
+      try {
+        work_(request);
+      } catch (const std::exception&) {  // out of memory: the connection is closed
       }
-      const size_t many = waiting.size() - std::min(waiting.size(), kMaxConnections);
-      for (size_t i = 0; i < many; ++i) close(waiting[i].socket);
-      waiting.erase(waiting.begin(), waiting.begin() + ptrdiff_t(many));
-      std::vector<pollfd> ready{{wake_, POLLIN, 0}};
-      for (const Connection& each : waiting) ready.push_back({each.socket, POLLIN, 0});
-      constexpr int kTickMs = 250;
-      poll(ready.data(), ready.size(), kTickMs);
-      if (ready[0].revents != 0) {
-        eventfd_t value;
-        eventfd_read(wake_, &value);
-      }
-      std::vector<Connection> still;
-      for (size_t i = 0; i < waiting.size(); ++i) {
-        if (!is_settled(&waiting[i], ready[i + 1].revents != 0))
-          still.push_back(std::move(waiting[i]));
-      }
-      waiting = std::move(still);
-    }
-    for (const Connection& each : waiting) close(each.socket);
-  }
-
-  // Whether the connection waits no longer: it was passed to a worker, or closed.
-  bool is_settled(Connection* connection, bool readable) {
-    std::string& head = connection->head;
-    if (readable) {
-      char bytes[4096];
-      const ssize_t n = recv(connection->socket, bytes, sizeof bytes, 0);
-      const bool again = n < 0 && (errno == EAGAIN || errno == EINTR);
-      if (n <= 0 && !again) return refuse(*connection, nullptr);
-      if (head.empty()) connection->deadline = Clock::now() + kHeadTime;
-      if (n > 0) head.append(bytes, size_t(n));
-    }
-    if (head.find("\r\n\r\n") != head.npos) {
-      const size_t path = head.find(' ') + 1;
-      if (!is_equal(head.substr(path, root_.size()), root_))
-        return refuse(*connection, "403 Forbidden");
-      pool_.enqueue([this, it = *connection]() mutable { answer(std::move(it)); });
-      return true;
-    }
-    if (head.size() > kMaxHead) return refuse(*connection, "431 Request Header Fields Too Large");
-    return Clock::now() > connection->deadline && refuse(*connection, nullptr);
-  }
-
-  // Closes the connection, with a status if not null. Returns true.
-  static bool refuse(const Connection& connection, const char* status) {
-    if (status != nullptr) {
-      const std::string text =
-          std::string("HTTP/1.1 ") + status + "\r\nContent-Length: 0\r\nConnection: close\r\n\r\n";
-      send(connection.socket, text.data(), text.size(), MSG_NOSIGNAL);
-    }
-    close(connection.socket);
-    return true;
-  }
-
-  void answer(Connection connection) {
-    bool closed = false, good = false;
-    {
-      RequestStream stream(&connection);
-      good = process_request(stream, false, closed, nullptr);
-    }
-    if (!good || closed || ending_) {
-      close(connection.socket);
-    } else {
-      connection.deadline = Clock::now() + kIdleTime;
-      add(std::move(connection));
+      lock.lock();
     }
   }
 
-  const std::string root_;
-  httplib::ThreadPool pool_;
-  std::atomic<bool> ending_ = false;
-  const int wake_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+  const Work work_;
   std::mutex mutex_;
-  std::vector<Connection> incoming_;  // for the reader
-  std::thread reader_;
+  std::condition_variable_any arrived_;
+  std::deque<AdmittedRequest> queue_;
+  std::vector<std::jthread> threads_;  // last: they use the others
 };
 
-class Site {
+// The library parses requests and writes answers. It listens by svr_sock_, but Connections accepts
+// and reads.
+class Site : httplib::Server {
  public:
   Site(const DagFile& file, const TileCutter& cutter, const ServerConfig& config)
       : cutter_(cutter),
         root_("/" + config.token + "/"),
-        scene_(scene_json(file, cutter, {config.up, 1, true})),
-        server_(root_) {
-    server_.set_payload_max_length(0);
+        scene_(scene_json(file, cutter, {config.up, 1, true})) {
+    set_payload_max_length(0);
+    set_keep_alive_max_count(1000000);
+    set_keep_alive_timeout(Connections::kHeadTime.count());
     // The default, SO_REUSEPORT, would share the port with another process.
-    server_.set_socket_options([](socket_t socket) {
+    set_socket_options([](socket_t socket) {
       const int yes = 1;
       setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
     });
-    server_.set_tcp_nodelay(true);
-    server_.set_default_headers({{"X-Content-Type-Options", "nosniff"},
-                                 {"Referrer-Policy", "no-referrer"},
-                                 {"Content-Security-Policy", "frame-ancestors 'none'"},
-                                 {"Cross-Origin-Resource-Policy", "same-origin"},
-                                 {"Cache-Control", "private, no-cache"}});
-    server_.set_pre_routing_handler(
-        [this](const Request& request, Response& response) { return admit(request, &response); });
-    // admit() has checked the token, so the path begins with it.
-    server_.Get(".*", [this](const Request& request, Response& response) {
+    set_default_headers({{"Content-Security-Policy", "frame-ancestors 'none'"},
+                         {"X-Content-Type-Options", "nosniff"},
+                         {"Referrer-Policy", "no-referrer"},
+                         {"Cross-Origin-Resource-Policy", "same-origin"},
+                         {"Cache-Control", "private, no-cache"}});
+    // admission_status() has checked the token, so the path begins with it.
+    Get(".*", [this](const Request& request, Response& response) {
       answer(request, request.path.substr(root_.size()), &response);
     });
   }
+  ~Site() override {
+    if (svr_sock_ != INVALID_SOCKET) ::close(svr_sock_);
+  }
 
-  BoundedServer& server() { return server_; }
-  const OpenPages& pages() const { return pages_; }
-  void stop() {
-    ending_ = true;
-    server_.stop();
+  // Returns the port, or -1 if it is in use.
+  int listen_at(const std::string& host, int port) {
+    if (port == 0) return bind_to_any_port(host);
+    return bind_to_port(host, port) ? port : -1;
+  }
+
+  // Serves until `is_done`, which is called every 50 ms with the number of open pages.
+  void serve(const std::function<bool(size_t)>& is_done) {
+    Connections connections(svr_sock_);
+    Workers workers([&](AdmittedRequest& request) {
+      bool is_closed = false;
+      if (process_request(request, false, is_closed, nullptr) && !is_closed && request.is_read())
+        connections.put_back(request.take_connection());
+    });
+    while (!is_done(connections.held())) {
+      connections.wait(std::chrono::milliseconds(50), [&](Socket connection, std::string received) {
+        admit(std::move(connection), std::move(received), &connections, &workers);
+      });
+    }
   }
 
  private:
-  httplib::Server::HandlerResponse admit(const Request& request, Response* response) const {
-    const bool admitted = is_this_machine(request.get_header_value("Host")) &&
-                          is_equal(request.path.substr(0, root_.size()), root_);
-    if (admitted && (request.method == "GET" || request.method == "HEAD"))
-      return httplib::Server::HandlerResponse::Unhandled;
-    response->status = admitted ? 405 : 403;
-    return httplib::Server::HandlerResponse::Handled;
+  void admit(Socket connection, std::string received, Connections* connections, Workers* workers) {
+    const size_t end =
+        std::string_view(received).substr(0, Connections::kMaxHeadBytes).find(kEndOfHead);
+    const std::string_view head = std::string_view(received).substr(0, end + kEndOfHead.size());
+    const int status = end == received.npos ? 431 : admission_status(head, root_);
+    if (status != 200) {
+      send_all(connection.get(), head_of_answer(status) + "Content-Length: 0\r\n\r\n",
+               MSG_DONTWAIT);
+    } else if (requested_name(head, root_) == "alive") {
+      // A page keeps this request open while it is shown.
+      if (send_all(connection.get(),
+                   head_of_answer(200) + "Content-Type: text/event-stream\r\n\r\n", MSG_DONTWAIT))
+        connections->hold(std::move(connection));
+    } else {
+      workers->add({std::move(connection), std::move(received)});
+    }
   }
 
-  void answer(const Request& request, const std::string& name, Response* response) {
-    if (name == "alive") return keep_open(response);
+  static std::string head_of_answer(int status) {
+    return "HTTP/1.1 " + std::to_string(status) + " \r\nConnection: close\r\n";
+  }
+
+  void answer(const Request& request, const std::string& name, Response* response) const {
     if (name == "scene.json") return send(request, scene_, "application/json", response);
     if (name.starts_with("tiles/")) return send_tile(request, name.substr(6), response);
     for (const PageFile& file : page_files()) {
@@ -313,24 +221,8 @@ class Site {
       response->set_content(text, type);
   }
 
-  // A page keeps this request open; a line every second finds out when it is closed.
-  void keep_open(Response* response) {
-    pages_.open();
-    response->set_chunked_content_provider(
-        "text/event-stream",
-        [this](size_t, httplib::DataSink& sink) {
-          for (int i = 0; i < 10 && !ending_; ++i)
-            std::this_thread::sleep_for(std::chrono::milliseconds(100));
-          return !ending_ && sink.write(":\n", 2);
-        },
-        [this](bool) { pages_.close(); });
-  }
-
   const TileCutter& cutter_;
   const std::string root_, scene_;
-  BoundedServer server_;
-  OpenPages pages_;
-  std::atomic<bool> ending_ = false;
 };
 
 }  // namespace
@@ -342,29 +234,16 @@ void serve(const DagFile& file, const TileCutter& cutter, const ServerConfig& co
   if (known.token.empty()) known.token = random_token();
   Site site(file, cutter, known);
   const std::string host = "127.0.0.1";
-  const int port = known.port == 0
-                       ? site.server().bind_to_any_port(host)
-                       : (site.server().bind_to_port(host, known.port) ? known.port : -1);
+  const int port = site.listen_at(host, known.port);
   if (port < 0)
     fail_usage(host + ":" + std::to_string(known.port) + ": cannot listen: the port is in use");
-  std::thread listener([&] { site.server().listen_after_bind(); });
-  const auto end = [&] {
-    site.stop();
-    listener.join();
-    site.server().end();
-  };
-  try {
-    while (!site.server().is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    ready("http://" + host + ":" + std::to_string(port) + "/" + known.token + "/");
-    while (known.keep || !site.pages().gone_for(known.linger)) {
-      check_interrupt();
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
-  } catch (...) {
-    end();
-    throw;
-  }
-  end();
+  ready("http://" + host + ":" + std::to_string(port) + "/" + known.token + "/");
+  std::optional<Clock::time_point> last_open;
+  site.serve([&](size_t open_pages) {
+    check_interrupt();
+    if (open_pages > 0) last_open = Clock::now();
+    return !known.keep && last_open && Clock::now() - *last_open >= known.linger;
+  });
 }
 
 }  // namespace svdag
