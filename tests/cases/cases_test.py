@@ -40,6 +40,7 @@ SCENES = {
     "dae_colour_with_space.dae": (12, CUBE, {}),
     "dae_utf16.dae": (12, CUBE, {}),
 }
+OF_LIBRARIES = ("draco", "meshopt", ".dae")
 VOXELS = {"vox_rotated.vox": 5, "npz_compressed.npz": 2, "npy_big_endian.npy": 2}
 
 
@@ -52,8 +53,8 @@ class Cases(unittest.TestCase):
         for name, (triangles, bounds, left_out) in SCENES.items():
             with self.subTest(name=name):
                 done = run("svdag", "info", FOLDER / name, "--json")
-                if "cannot read" in done.stderr and "this build" in done.stderr:
-                    continue
+                if any(word in name for word in OF_LIBRARIES) and "svdag cannot read" in done.stderr:
+                    continue  # this build lacks the library
                 self.assertEqual(done.returncode, 0, done.stderr)
                 info = json.loads(done.stdout)
                 self.assertEqual(info["triangles"], triangles)
