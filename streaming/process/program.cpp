@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cfenv>
 #include <cstdio>
+#include <new>
 #include <string>
 
 #include "streaming/file/mapped_file.h"
@@ -16,7 +17,11 @@ namespace svdag {
 namespace {
 
 int print_message(const ProgramMessages& messages, const char* sentence, int code) {
-  std::fprintf(stderr, "%s: %s\n", messages.name, printable(sentence).c_str());
+  try {
+    std::fprintf(stderr, "%s: %s\n", messages.name, printable(sentence).c_str());
+  } catch (const std::bad_alloc&) {  // the sentence about a lack of memory needs none
+    std::fprintf(stderr, "%s: %s\n", messages.name, sentence);
+  }
   return code;
 }
 
