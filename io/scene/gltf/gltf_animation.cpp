@@ -17,6 +17,8 @@ using Values = std::vector<double>;
 
 constexpr double kClose = 0.9995;  // cosine of half of the angle between two rotations
 
+constexpr uint64_t kBytesPerValue = 4 * (sizeof(nlohmann::json) + 8 * sizeof(double));
+
 // Between key `index`, of which the value is taken where u is 0, and the next.
 struct KeyTime {
   uint64_t index = 0, count = 0;
@@ -118,6 +120,8 @@ class Poser {
     if (output.sparse_indices || output.base.blob == nullptr || each == 0 ||
         output.count() != keys * each)
       fail_input(sampler.path(), "has an animation whose values do not belong to its times");
+    // The values of a node and, while they are interpolated, of two keys with their tangents.
+    document_.memory.resize(document_.memory.bytes() + kBytesPerValue * each, "animated nodes");
     const auto value = [&](uint64_t k, uint64_t part) {
       Accessor one = output;
       one.base.begin += (parts * k + part) * each * one.base.stride;
@@ -156,8 +160,7 @@ class Poser {
 
 uint64_t pose_at(const PoseTime& when, GltfDocument* document, GltfBuffers* buffers) {
   Poser poser(when.seconds, document, buffers);
-  const nlohmann::json animations =
-      document->root().has("animations") ? document->json["animations"] : nlohmann::json::array();
+  const auto animations = document->root().array("animations");
   bool found = false;
   std::string names;
   for (size_t i = 0; i < animations.size(); ++i) {
