@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
+#include <algorithm>
 
 #include <filesystem>
 #include <memory>
@@ -191,6 +192,13 @@ uint64_t free_bytes_of(const std::string& folder) {
   if (retry_interrupted([&] { return ::statvfs(folder.c_str(), &disk); }) != 0) return UINT64_MAX;
   const bool counts_files = disk.f_files != 0;  // btrfs does not
   return counts_files && disk.f_favail == 0 ? 0 : free_bytes_in(disk);
+}
+
+bool is_inside(const std::string& folder, const std::string& path) {
+  std::error_code no_folder, no_path;
+  const auto top = std::filesystem::canonical(folder, no_folder);
+  const auto real = std::filesystem::canonical(path, no_path);
+  return !no_folder && !no_path && std::ranges::mismatch(top, real).in1 == top.end();
 }
 
 std::string absolute_path(const std::string& path) {

@@ -70,6 +70,9 @@ class Folder {
 // UINT64_MAX if that is unknown: writing a file will report why.
 uint64_t free_bytes_of(const std::string& folder);
 
+// Whether an existing `path`, all symbolic links resolved, is in the folder or below it.
+bool is_inside(const std::string& folder, const std::string& path);
+
 // `path` as an absolute path with the symbolic links of its folder resolved, but not a link that is
 // the last component.
 std::string absolute_path(const std::string& path);

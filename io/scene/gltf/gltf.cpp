@@ -83,16 +83,18 @@ class GltfReader {
       if (mode > kTriangleFan) fail_input(primitive.path(), "has a primitive of unknown mode");
       const JsonObject attributes = primitive.object("attributes");
       if (!attributes.has("POSITION")) continue;
-      const std::string material = material_of(primitive);
-      if (!wants_material(material, included)) continue;
+      const auto material = material_of(primitive);
+      const std::string name_of_material = material ? material->text("name") : "";
+      if (!wants_material(name_of_material, included)) continue;
       if (mode < kTriangles) {
         left_out_.add(Omission::kPointsOrLines);
         continue;
       }
-      if (is_cut_out(primitive)) left_out_.add(Omission::kCutOuts);
+      if (material && is_cut_out(*material)) left_out_.add(Omission::kCutOuts);
       if (options_.images != nullptr && attributes.has("COLOR_0"))
         left_out_.add(Omission::kVertexColours);
-      out_.material(material, colour_of(primitive));
+      const bool is_coloured = options_.images != nullptr && material;
+      out_.material(name_of_material, is_coloured ? colour_of(*material) : std::nullopt);
       InstanceStream instances(node, world, &buffers_);
       if (pose_.moves(node, primitive) && !draco_.holds(primitive)) {
         draw_posed(node, primitive, mode, world, &instances);
@@ -104,30 +106,21 @@ class GltfReader {
     }
   }
 
-  // "" without a material, or if it has no name.
-  std::string material_of(const JsonObject& primitive) const {
-    if (!primitive.has("material")) return "";
+  // The material, which is not needed: a scene may lack it.
+  std::optional<JsonObject> material_of(const JsonObject& primitive) const {
+    if (!primitive.has("material")) return {};
     const uint64_t index = primitive.whole_number("material");
-    // Materials are not needed: a scene may lack them.
-    if (index >= document_.root().array("materials").size()) return "";
-    return document_.element("materials", index).text("name");
+    if (index >= document_.root().array("materials").size()) return {};
+    return document_.element("materials", index);
   }
 
-  // Whether its material has an alpha mask or is blended.
-  bool is_cut_out(const JsonObject& primitive) const {
-    if (!primitive.has("material")) return false;
-    const uint64_t index = primitive.whole_number("material");
-    if (index >= document_.root().array("materials").size()) return false;
-    const std::string& alpha = document_.element("materials", index).text("alphaMode");
+  static bool is_cut_out(const JsonObject& material) {
+    const std::string& alpha = material.text("alphaMode");
     return alpha == "MASK" || alpha == "BLEND";
   }
 
   // The base colour of the material, times the mean of its texture.
-  std::optional<Colour> colour_of(const JsonObject& primitive) {
-    if (options_.images == nullptr || !primitive.has("material")) return {};
-    const uint64_t index = primitive.whole_number("material");
-    if (index >= document_.root().array("materials").size()) return {};
-    const JsonObject material = document_.element("materials", index);
+  std::optional<Colour> colour_of(const JsonObject& material) {
     if (!material.has("pbrMetallicRoughness")) return {};
     const JsonObject pbr = material.object("pbrMetallicRoughness");
     std::optional<ImageMean> mean;

@@ -1,13 +1,14 @@
 #include "io/scene/gltf/gltf_uri.h"
 
+#include <unistd.h>
+
 #include <array>
 #include <cctype>
 #include <cstdint>
-#include <cstdlib>
-#include <memory>
 #include <sstream>
 
 #include "streaming/error.h"
+#include "streaming/file/file_folder.h"
 
 namespace svdag {
 namespace {
@@ -54,12 +55,6 @@ bool has_parent_part(const std::string& text) {
   return false;
 }
 
-std::string real_path(const std::string& path) {
-  const std::unique_ptr<char, decltype(&std::free)> real(::realpath(path.c_str(), nullptr),
-                                                         &std::free);
-  return real ? real.get() : "";
-}
-
 constexpr std::array<int8_t, 256> base64_values() {
   std::array<int8_t, 256> values{};
   for (int8_t& v : values) v = -1;
@@ -101,14 +96,11 @@ File open_beside(const std::string& scene_path, std::string_view uri, const std:
   if (leaves) {
     fail_input(scene_path, refers + ", but it must be a file in the scene's folder");
   }
-  const std::string folder = real_path(folder_of(scene_path));
-  const std::string target = real_path(folder_of(scene_path) + "/" + text);
-  if (target.empty()) {
+  const std::string target = folder_of(scene_path) + "/" + text;
+  if (::access(target.c_str(), F_OK) != 0)
     fail_input(scene_path, refers + ", which does not exist");
-  }
-  if (!target.starts_with(folder == "/" ? folder : folder + "/")) {
+  if (!is_inside(folder_of(scene_path), target))
     fail_input(scene_path, refers + ", a link that leads out of the scene's folder");
-  }
   return File::open_read(target);
 }
 

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <set>
 
+#include "streaming/file/file_folder.h"
 #include "streaming/process/interrupt.h"
 
 namespace svdag {
@@ -79,14 +80,6 @@ bool is_file(const std::string& path) {
   return std::filesystem::is_regular_file(path, error);
 }
 
-// Whether the file, links resolved, is in the folder or below it.
-bool is_inside(const std::filesystem::path& folder, const std::string& path) {
-  std::error_code error;
-  const auto real = std::filesystem::canonical(path, error);
-  const auto top = std::filesystem::canonical(folder.empty() ? "." : folder, error);
-  return !error && std::ranges::mismatch(top, real).in1 == top.end();
-}
-
 // The .mtl files, each once.
 std::vector<std::string> mtl_paths(const File& obj) {
   std::vector<std::string> paths;
@@ -100,6 +93,7 @@ std::vector<std::string> mtl_paths(const File& obj) {
 }
 
 std::optional<double> number(std::string_view word) {
+  if (word.starts_with('+')) word.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   const bool whole = error == std::errc() && end == word.data() + word.size();
@@ -153,8 +147,7 @@ std::string texture_path(const std::string& mtl, std::string name) {
 
 class MtlReader {
  public:
-  MtlReader(const File& obj, const MtlOptions& options)
-      : options_(options), folder_(std::filesystem::path(obj.path()).parent_path()) {
+  MtlReader(const File& obj, const MtlOptions& options) : options_(options), path_(obj.path()) {
     for (const std::string& path : mtl_paths(obj)) {
       if (!wants(path)) continue;
       files_.push_back(path);
@@ -168,7 +161,7 @@ class MtlReader {
  private:
   // A file that does not exist is an Error where it is opened.
   bool wants(const std::string& path) const {
-    if (options_.allow_outside || !is_file(path) || is_inside(folder_, path)) return true;
+    if (options_.allow_outside || !is_file(path) || is_inside(folder_of(path_), path)) return true;
     if (options_.images != nullptr)
       options_.images->note(path +
                             ": is outside the folder of the scene: --allow-outside reads it");
@@ -203,7 +196,7 @@ class MtlReader {
   }
 
   const MtlOptions& options_;
-  std::filesystem::path folder_;
+  const std::string& path_;  // of the .obj file
   std::vector<std::string> files_;
   MtlMaterials materials_{{}, options_.budget->reserve(0, "materials of .mtl files")};
 };
