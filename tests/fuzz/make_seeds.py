@@ -49,12 +49,13 @@ def journal(lattice):
     levels, all_voxels = 5, 1 << 15
     grid = struct.pack("<Ii4d3qI6q12d", lattice, levels, 0.5, 1, 2, 3, 0, 0, 0, lattice, 0, 0, 0, 32, 32, 32,
                        1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0)
-    bake = struct.pack("<I", 6) + text(b"algorithm: 1\nrule: thin\n") + grid + struct.pack("<Q", 16384)
+    bake = struct.pack("<I", 7) + text(b"algorithm: 2\nrule: thin\n") + grid + struct.pack("<Q", 16384)
     bins = b"".join(struct.pack("<i3q2Q", 1, 0, 0, z, z * 4096, (z + 1) * 4096) + struct.pack("<Q", 9) + stream(
         1 + z, 16000 + z, [z]) for z in range(2))
     layers = struct.pack("<IQ", 0, 0)
     windings = struct.pack("<IQ", 1, 2) + struct.pack("<2Ii2Ii", 0, 0, 1, 511, 0, -2) if lattice else struct.pack("<I", 0)
-    split = (struct.pack("<Qd5Qd2Qd", 18, 0.25, 0, 4, 1, 2, 3, 0.125, 1, 0, 8) + struct.pack("<Q", 2) + bins + layers
+    left_out = struct.pack("<11Q", *range(11))
+    split = (struct.pack("<Qd2Q", 18, 0.25, 0, 4) + left_out + struct.pack("<3Qd2Qd", 1, 2, 3, 0.125, 1, 0, 8) + struct.pack("<Q", 2) + bins + layers
              + windings)
     run = struct.pack("<Q", levels - 2) + stream(3, 16, [0]) + stream(4, 32, [1]) + stream(5, 64, [2]) + stream(6, 32, [3])
     root = struct.pack("<Q", 1) + struct.pack("<QiII", 5, 1, 1, 0)
@@ -62,11 +63,44 @@ def journal(lattice):
     return record(1, bake) + record(2, split) + record(3, run + root + done) + record(4, b"") + record(3, run + root + done)
 
 
+def posed():
+    """A triangle with a skin, a morph target, and an animation of each interpolation."""
+    parts, views, accessors = b"", [], []
+
+    def accessor(values, kind, form="f", code=5126):
+        nonlocal parts
+        data = struct.pack(f"<{len(values)}{form}", *values)
+        width = {"SCALAR": 1, "VEC3": 3, "VEC4": 4, "MAT4": 16}[kind]
+        views.append({"buffer": 0, "byteOffset": len(parts), "byteLength": len(data)})
+        accessors.append({"bufferView": len(views) - 1, "componentType": code, "count": len(values) // width, "type": kind})
+        parts += data.ljust(-(-len(data) // 4) * 4, b"\0")
+        return len(accessors) - 1
+
+    primitive = {"attributes": {"POSITION": accessor([0, 0, 0, 1, 0, 0, 0, 1, 0], "VEC3"),
+                                "JOINTS_0": accessor([0, 1, 0, 0] * 3, "VEC4", "B", 5121),
+                                "WEIGHTS_0": accessor([0.5, 0.5, 0, 0] * 3, "VEC4")},
+                 "targets": [{"POSITION": accessor([0, 0, 1] * 3, "VEC3")}]}
+    times = accessor([0, 1], "SCALAR")
+    samplers = [(accessor([0, 0, 0, 1, 0, 0, 1, 0], "VEC4"), "LINEAR"), (accessor([1, 2, 3] * 6, "VEC3"), "CUBICSPLINE"),
+                (accessor([0.25, 0.75], "SCALAR"), "STEP")]
+    channels = [(1, "rotation"), (2, "translation"), (0, "weights")]
+    bind = accessor([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1] * 2, "MAT4")
+    return json.dumps({
+        "asset": {"version": "2.0"}, "scenes": [{"nodes": [0, 1]}], "meshes": [{"primitives": [primitive], "weights": [0.5]}],
+        "nodes": [{"mesh": 0, "skin": 0}, {"children": [2]}, {"translation": [1, 2, 3]}],
+        "skins": [{"joints": [1, 2], "inverseBindMatrices": bind}],
+        "animations": [{"name": "a", "samplers": [{"input": times, "output": o, "interpolation": i} for o, i in samplers],
+                        "channels": [{"sampler": i, "target": {"node": n, "path": p}} for i, (n, p) in enumerate(channels)]}],
+        "buffers": [{"byteLength": len(parts), "uri": "data:;base64," + base64.b64encode(parts).decode()}],
+        "bufferViews": views, "accessors": accessors}).encode()
+
+
 def scenes(corpus):
     """glTF files with every kind of element: sparse, instances, small integers, Draco."""
     document = hostile_counts_test.gltf()
     yield "sparse_instances.gltf", json.dumps(document).encode()
     yield "sparse_instances.glb", hostile_counts_test.glb()[0]
+    yield "posed.gltf", posed()
     for code, form, low, high in ((5120, "b", -128, 127), (5121, "B", 0, 255), (5122, "h", -32768, 32767), (5123, "H", 0, 65535)):
         size = struct.calcsize(form)
         corners = b"".join(struct.pack(f"<3{form}", *p).ljust(4 * size, b"\0") for p in (
