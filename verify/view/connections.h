@@ -4,7 +4,7 @@
 // connection together with a whole head. So a connection that sends nothing, or sends slowly,
 // takes neither a thread nor much memory: kMaxHeadBytes of a head, kHeadTime for it, and at most
 // kMaxWaiting connections (or half of the open files that the process may have). If there are
-// more, the one that has waited longest is closed: its client sends a head at once or is no loss.
+// more, the oldest is closed: a client in good order sends its head at once.
 #pragma once
 
 #include <chrono>

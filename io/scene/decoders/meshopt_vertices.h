@@ -3,9 +3,9 @@
 //
 // Vertices are coded in blocks. Byte b of all vertices of a block is one stream: 2 control bits say
 // whether it is left out (zeros), stored, or packed in groups of 16 values of 0, 1, 2, 4 or 8 bits,
-// where the largest code stands for a byte that follows the group. A stream holds differences to
-// the vertex before: per byte, per 16 bits, or as the xor of rotated 32 bits; the tail of the data
-// says which, for each 4 bytes, and holds the vertex before the first.
+// where the largest code means that the value is a byte after the group. A stream holds differences
+// to the vertex before: per byte, per 16 bits, or as the xor of rotated 32 bits; the tail of the
+// data says which, for each 4 bytes, and holds the vertex before the first.
 #pragma once
 
 #include <cstddef>

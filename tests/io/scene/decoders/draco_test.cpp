@@ -264,7 +264,7 @@ int compressed_node(GltfBuilder* gltf, int view, int z) {
   return gltf->append("nodes", {{"mesh", mesh}, {"translation", {0, 0, z}}});
 }
 
-// One child decodes several primitives; those that nobody draws may be broken.
+// One child decodes several primitives; those that no node draws may be broken.
 TEST(DracoGltf, ABrokenPrimitiveMattersOnlyIfItIsDrawn) {
   const std::string drc = encode(2, kUnquantized, draco::MESH_EDGEBREAKER_ENCODING);
   GltfBuilder gltf;
