@@ -1,6 +1,6 @@
 # svdag: `make demo` and `make test` work on a fresh Debian 12 with nothing but git and make.
 #
-#   deps    install the packages below (as root, through sudo, or print the line)
+#   deps    install the packages below (as root, through sudo, or print the line); download ufbx
 #   build   build/release/svdag, svdag-export, svdag-import, svdag-verify, svdag-trace,
 #           svdag-scene; man pages and completions below build/release/share
 #   demo    generate a scene, bake it at 16K, verify it, render it, into demo/
@@ -39,11 +39,11 @@
 
 PACKAGES = g++ cmake ninja-build pkg-config libglm-dev nlohmann-json3-dev libcli11-dev \
   libxxhash-dev libzstd-dev libhwy-dev libsodium-dev zlib1g-dev libdraco-dev libopenmesh-dev libassimp-dev \
-  libmeshoptimizer-dev libstb-dev libboost-dev libcpp-httplib-dev \
+  libexpat1-dev libminizip-dev libmeshoptimizer-dev libstb-dev libboost-dev libcpp-httplib-dev \
   libcgal-dev libembree-dev libopenvdb-dev libboost-iostreams-dev libnanovdb-dev python3-openvdb \
-  libgtest-dev librapidcheck-dev dpkg-dev file man-db python3 python3-numpy python3-xxhash valgrind
-FARM_PACKAGES = slurm-wlm munge python3-venv
-PYTHON_PACKAGES = python3-dev python3-venv
+  libgtest-dev librapidcheck-dev dpkg-dev file man-db python3 python3-venv python3-numpy python3-xxhash valgrind
+FARM_PACKAGES = slurm-wlm munge
+PYTHON_PACKAGES = python3-dev
 WHEEL_TOOLS = "scikit-build-core>=0.10" "nanobind>=2.0"
 VIEW_PACKAGES = chromium
 BENCH_PACKAGES = python3-matplotlib
@@ -76,6 +76,7 @@ endef
 
 deps:
 	$(call install,$(PACKAGES))
+	@sh io/scene/readers/get_ufbx.sh build/ufbx
 
 build: deps
 	@cmake --preset $(PRESET) --log-level=WARNING >/dev/null

@@ -91,7 +91,7 @@ void add_scene_options(CLI::App* app, SceneConfig* scene) {
                 "Drop triangles with NaN or infinite coordinates");
   app->add_flag(
       "--sandbox", scene->sandbox,
-      "Run Assimp, Draco, meshoptimizer, OpenMesh and stb_image in a process that can only "
+      "Run Assimp, ufbx, Draco, meshoptimizer, OpenMesh and stb_image in a process that can only "
       "compute: for untrusted scenes");
   app->add_option_function<std::string>(
          "--transform", [scene](const std::string& s) { scene->transform = parse_transform(s); },

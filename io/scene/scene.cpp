@@ -168,6 +168,8 @@ SceneCounts Scene::read(const TriangleSink& sink, MeshBox* box_alone) const {
                         config_.allow_outside,
                         config_.hidden,
                         config_.time ? &*config_.time : nullptr};
+    double unit = 0;
+    options.unit_metres = &unit;
     if (config_.time && detect_format(file).read != read_gltf)
       fail_usage(path + ": --time: svdag follows only animations of glTF");
     if (config_.only) options.box_alone = nullptr;
@@ -178,6 +180,8 @@ SceneCounts Scene::read(const TriangleSink& sink, MeshBox* box_alone) const {
       counts.left_out +=
           read_scene_file(detect_format(file), file, options, ToWorld(to_world, filtered));
     }
+    if (unit != 0 && std::find(counts.units.begin(), counts.units.end(), unit) == counts.units.end())
+      counts.units.push_back(unit);
   }
   const bool allowed = config_.allow_unmatched;
   append_unmatched("--include", names.include, use.include, use, allowed, &counts.unmatched);
@@ -205,6 +209,10 @@ Box Scene::bounds(SceneCounts* counts) const {
 void Scene::fail_empty(const SceneCounts& counts) const {
   std::string why;
   for (const std::string& pattern : counts.unmatched) why += "; nothing matches " + pattern;
+  for (size_t i = 0; i < kOmissionCount; ++i) {
+    if (counts.left_out[i] > 0)
+      why += "; " + std::to_string(counts.left_out[i]) + " " + kOmissions[i].text;
+  }
   for (const std::string& path : config_.paths) {
     const File packed = File::open_read(path);
     const File& file = content_of(packed);

@@ -52,6 +52,7 @@ struct SceneCounts {
   uint64_t invalid = 0;     // dropped: a coordinate was NaN or infinite
   uint64_t undeformed = 0;  // as stored, though a skin or morph targets deform their mesh
   LeftOut left_out;         // by the readers
+  std::vector<double> units;               // in metres, each once: those that files state
   std::vector<std::string> unmatched;      // "--include 'sky*'": with allow_unmatched
   std::vector<std::string> unread_images;  // "PATH: why": with colours
 };

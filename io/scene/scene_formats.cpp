@@ -63,12 +63,20 @@ constexpr auto kReadOpenMesh = read_openmesh;
 constexpr auto kReadOpenMesh = nullptr;
 #endif
 #ifdef SVDAG_HAS_ASSIMP
-constexpr auto kReadFbx = read_fbx;
 constexpr auto kReadCollada = read_collada;
-constexpr auto kRead3mf = read_3mf;
 constexpr auto kRead3ds = read_3ds;
 #else
-constexpr auto kReadFbx = nullptr, kReadCollada = nullptr, kRead3mf = nullptr, kRead3ds = nullptr;
+constexpr auto kReadCollada = nullptr, kRead3ds = nullptr;
+#endif
+#ifdef SVDAG_HAS_UFBX
+constexpr auto kReadFbx = read_fbx;
+#else
+constexpr auto kReadFbx = nullptr;
+#endif
+#ifdef SVDAG_HAS_3MF
+constexpr auto kRead3mf = read_3mf;
+#else
+constexpr auto kRead3mf = nullptr;
 #endif
 
 constexpr const char* kAsGlb = ": open it in Blender and export it as .glb";

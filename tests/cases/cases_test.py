@@ -39,8 +39,25 @@ SCENES = {
     "gltf_draco_int16.gltf": (12, [0, 0, 0, 32767, 32767, 32767], {}),
     "dae_colour_with_space.dae": (12, CUBE, {}),
     "dae_utf16.dae": (12, CUBE, {}),
+    "3mf_thumbnail.3mf": (12, CUBE, {}),
+    "3mf_component_path.3mf": (12, CUBE, {}),
+    "3mf_item_path.3mf": (12, CUBE, {}),
+    "3mf_surface_type.3mf": (12, CUBE, {}),
+    "3mf_inch.3mf": (12, CUBE, {}),
+    "3mf_same_ids.3mf": (24, [0, 0, 0, 4, 1, 1], {}),
+    "fbx_6100.fbx": (12, [3, 0, 0, 4, 1, 1], {}),
+    "fbx_blend_shape.fbx": (12, CUBE, {}),
+    "fbx_blend_shape_no_normals.fbx": (12, CUBE, {}),
+    "fbx_front_axis.fbx": (12, [-1, 0, 5, 0, 1, 6], {}),
+    "fbx_geometric.fbx": (24, [0, 0, 0, 11, 6, 1], {}),
+    "fbx_geometric_rotated.fbx": (12, [-1, 10, 0, 0, 11, 1], {}),
+    "fbx_hidden.fbx": (12, [3, 0, 0, 4, 1, 1], {"hidden": 1}),
+    "fbx_post_rotation.fbx": (12, [0, -(3 ** 0.5) / 2, -1, 0.5 + 3 ** 0.5 / 2, 0.5, 0], {}),
 }
-OF_LIBRARIES = ("draco", "meshopt", ".dae")
+OF_LIBRARIES = ("draco", "meshopt", ".dae", ".3mf", ".fbx")
+UNITS = {"3mf_thumbnail.3mf": [0.001], "3mf_inch.3mf": [0.0254], "fbx_6100.fbx": [0.01]}
+UNDEFORMED = ("fbx_blend_shape.fbx", "fbx_blend_shape_no_normals.fbx")
+REFUSED = {"3mf_beams_only.3mf": "1 beams of beam lattices are not baked"}
 VOXELS = {"vox_rotated.vox": 5, "npz_compressed.npz": 2, "npy_big_endian.npy": 2}
 
 
@@ -61,6 +78,8 @@ class Cases(unittest.TestCase):
                 for got, own in zip(info["bounds"], bounds):
                     self.assertAlmostEqual(got, own, delta=1e-5)
                 self.assertEqual(info["left_out"], left_out)
+                self.assertEqual(info["units"], UNITS.get(name, info["units"]))
+                self.assertEqual(info["undeformed"], 12 if name in UNDEFORMED else 0)
                 self.assertEqual(info["open_edges"] == 0, triangles != 11)
 
     def test_what_is_left_out_is_one_line_of_the_summary_and_a_count_of_the_report(self):
@@ -74,6 +93,14 @@ class Cases(unittest.TestCase):
             self.assertIn("24 triangles", run(*bake, "--hidden").stdout)
             self.assertEqual(run("svdag-verify", "mesh", folder / "a.svdag", scene, "--hidden").returncode, 0)
 
+    def test_a_scene_of_what_svdag_does_not_bake_is_refused_with_the_reason(self):
+        for name, words in REFUSED.items():
+            done = run("svdag", "info", FOLDER / name)
+            if "svdag cannot read" in done.stderr:
+                continue
+            self.assertEqual(done.returncode, 3, done.stdout)
+            self.assertIn(words, done.stderr)
+
     def test_voxel_files_are_read_rightly(self):
         with tempfile.TemporaryDirectory() as name:
             out = pathlib.Path(name) / "a.svdag"
@@ -84,7 +111,7 @@ class Cases(unittest.TestCase):
 
     def test_every_case_is_tested(self):
         files = {path.name for path in FOLDER.iterdir() if path.suffix not in (".py", ".bin", ".cmake")}
-        self.assertEqual(files, set(SCENES) | set(VOXELS))
+        self.assertEqual(files, set(SCENES) | set(VOXELS) | set(REFUSED))
 
 
 if __name__ == "__main__":

@@ -324,8 +324,10 @@ def main(programs, corpus):
         for name, data in images():
             keep("image", name, data)
         foreign_scenes.main(str(folder / "s"))
-        for number, name in enumerate(("s_z.fbx", "s.dae", "s.3mf", "s.3ds")):
+        for number, name in enumerate(("s.3ds", "s.dae")):
             keep("assimp", name, bytes([number]) + (folder / name).read_bytes())
+        keep("fbx", "s_z.fbx", (folder / "s_z.fbx").read_bytes())
+        keep("three_mf", "s.3mf", (folder / "s.3mf").read_bytes())
         keep("obj", "long_numbers.obj", b"v 0.12345678901234567 -12345678.87654321 1e-7\nv 1234567890.123456789 .5 -0\n"
              b"v 0.000000000000000001234 99999999999999999999 1.5E+3\nf 1 2 3\n")
     for lattice in (0, 1):

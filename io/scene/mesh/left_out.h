@@ -22,6 +22,10 @@ enum class Omission : uint8_t {
   kHeaderLines,
   kBytesAfter,
   kNoEnd,
+  kNotPrintable,
+  kBeams,
+  kSlices,
+  kUnread,
 };
 
 struct OmissionKind {
@@ -42,6 +46,10 @@ constexpr OmissionKind kOmissions[] = {
     {"header_lines", "unknown header lines are skipped"},
     {"bytes_after", "bytes after the last triangle are ignored"},
     {"no_end", "solids end without \"endsolid\": the file may be truncated"},
+    {"not_printable", "items of the build are not to be printed and are not baked"},
+    {"beams", "beams of beam lattices are not baked"},
+    {"slices", "objects have slices, which are not baked"},
+    {"unread", "parts are of a kind that svdag does not read"},
 };
 constexpr size_t kOmissionCount = std::size(kOmissions);
 

@@ -95,6 +95,8 @@ struct ReadOptions {
   bool allow_outside = false;      // read materials and textures outside the folder of an .obj file
   bool hidden = false;             // read nodes that the file hides
   const PoseTime* time = nullptr;  // null: the pose at rest
+  // Not null: set to the length of a unit of the coordinates in metres, if the file states it.
+  double* unit_metres = nullptr;
 
   // Whether the object `name`, which has no material, is selected.
   bool wants(const std::string& name) const {
@@ -113,10 +115,10 @@ LeftOut read_off(const File& file, const ReadOptions& options, MeshWriter* out);
 LeftOut read_gltf(const File& file, const ReadOptions& options, MeshWriter* out);  // and GLB
 LeftOut read_draco(const File& file, const ReadOptions& options, MeshWriter* out);
 LeftOut read_openmesh(const File& file, const ReadOptions& options, MeshWriter* out);  // .om
-// With Assimp.
 LeftOut read_fbx(const File& file, const ReadOptions& options, MeshWriter* out);
-LeftOut read_collada(const File& file, const ReadOptions& options, MeshWriter* out);
 LeftOut read_3mf(const File& file, const ReadOptions& options, MeshWriter* out);
+// With Assimp.
+LeftOut read_collada(const File& file, const ReadOptions& options, MeshWriter* out);
 LeftOut read_3ds(const File& file, const ReadOptions& options, MeshWriter* out);
 
 // Collects triangles and passes them on in batches of up to kBatch.

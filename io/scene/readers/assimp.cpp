@@ -1,18 +1,11 @@
-// Reads FBX, COLLADA, 3MF and 3DS with Assimp.
+// Reads COLLADA and 3DS with Assimp.
 //
-// Assimp holds the whole scene, so these formats are not streamed. It
-// parses untrusted bytes, so it always runs in a process of its own; under --sandbox, one that can
-// only compute. Its positions are floats; the transforms of nodes are composed here, in double.
-// Polygons are passed on as they are: Assimp's own triangulation may drop some.
-//
-// Files that name their vertical axis are turned so that y is up: COLLADA and 3DS by Assimp, FBX
-// here. COLLADA comes in metres, the others in the units of the file.
+// Assimp holds the whole scene, so these formats are not streamed. It parses untrusted bytes, so it
+// runs in a limited child. Its positions are floats; the transforms of nodes are composed here, in
+// double. Polygons are passed on as they are: Assimp's own triangulation may drop some. It turns
+// the files so that y is up. COLLADA comes in metres, 3DS in the units of the file.
 //
 // The colour of a material is its base or diffuse colour, which is sRGB; its textures are not read.
-//
-// The child sends of each mesh: a MeshHead; the material and the names of the nodes from the root
-// on, separated by zero bytes; its vertices and polygons.
-#include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/scene.h>
 
@@ -23,24 +16,13 @@
 #include <string_view>
 
 #include "io/affine.h"
-#include "io/scene/readers/decoded_mesh.h"
+#include "io/scene/readers/named_mesh.h"
 #include "streaming/error.h"
 
 namespace svdag {
 namespace {
 
-// Messages of the child.
-enum AssimpMessage : uint64_t { kMeshHead = kOtherMessage, kMeshNames };
-
-struct MeshHead {
-  uint8_t undeformed = 0;
-  uint8_t has_colour = 0;
-  uint8_t is_mirrored = 0;
-  uint8_t has_lines = 0;  // or points
-  Colour colour;
-  uint64_t vertices = 0;
-};
-
+constexpr const char* kCollada = "dae";  // its ending
 constexpr int kMaxNodeDepth = 512;  // of nodes; the walk recurses
 
 Affine affine_of(const aiMatrix4x4& m) {
@@ -70,14 +52,14 @@ std::optional<Colour> colour_of(const aiMaterial& material) {
 // Sends the meshes of a scene, node by node.
 class Sender {
  public:
-  Sender(const File& file, const aiScene& scene, DecoderOutput* out)
-      : file_(file), scene_(scene), out_(*out) {}
+  Sender(const std::string& path, const aiScene& scene, NamedMeshSender* out)
+      : path_(path), scene_(scene), out_(*out) {}
 
-  void send_node(const aiNode& node, const Affine& parent, const std::string& parent_names,
-                 int depth) {
-    if (depth > kMaxNodeDepth) fail_input(file_.path(), "has nodes nested too deeply");
+  void send_node(const aiNode& node, const Affine& parent, std::string names, int depth) {
+    if (depth > kMaxNodeDepth) fail_input(path_, "has nodes nested too deeply");
     const Affine to_world = compose(parent, affine_of(node.mTransformation));
-    const std::string names = parent_names + '\0' + node.mName.C_Str();
+    if (depth > 0) names += '\0';
+    names += node.mName.C_Str();
     for (unsigned i = 0; i < node.mNumMeshes; ++i)
       send_mesh(*scene_.mMeshes[node.mMeshes[i]], to_world, names);
     for (unsigned i = 0; i < node.mNumChildren; ++i)
@@ -86,53 +68,41 @@ class Sender {
 
  private:
   void send_mesh(const aiMesh& mesh, const Affine& to_world, const std::string& names) {
-    std::string material;
-    std::optional<Colour> colour;
-    if (mesh.mMaterialIndex < scene_.mNumMaterials) {
-      material = scene_.mMaterials[mesh.mMaterialIndex]->GetName().C_Str();
-      colour = colour_of(*scene_.mMaterials[mesh.mMaterialIndex]);
-    }
-    if (material == AI_DEFAULT_MATERIAL_NAME || material == "%%%DEFAULT") {
-      material.clear();
-      colour.reset();
-    }
-    const bool undeformed = mesh.mNumBones > 0 || mesh.mNumAnimMeshes > 0;
-    const bool has_lines =
-        (mesh.mPrimitiveTypes & (aiPrimitiveType_POINT | aiPrimitiveType_LINE)) != 0;
-    const MeshHead head{undeformed, colour.has_value(),        is_mirror(to_world),
-                        has_lines,  colour.value_or(Colour()), mesh.mNumVertices};
-    out_.send_one(kMeshHead, head);
-    out_.send_text(kMeshNames, material + names);
-    DecodedMeshSender out(&out_);
+    NamedMeshHead head{{}, mesh.mNumVertices, is_mirror(to_world), false};
+    head.is_undeformed = mesh.mNumBones > 0 || mesh.mNumAnimMeshes > 0;
+    if ((mesh.mPrimitiveTypes & (aiPrimitiveType_POINT | aiPrimitiveType_LINE)) != 0)
+      head.left_out.add(Omission::kPointsOrLines);
+    if (mesh.HasVertexColors(0)) head.left_out.add(Omission::kVertexColours);
+    out_.begin(head, names);
     for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
       const aiVector3D& p = mesh.mVertices[v];
-      out.vertex(to_world({double(p.x), double(p.y), double(p.z)}));
+      out_.vertex(to_world({double(p.x), double(p.y), double(p.z)}));
     }
+    send_material(mesh.mMaterialIndex);
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const aiFace& face = mesh.mFaces[f];
       if (face.mNumIndices < 3) continue;  // a point or a line
       for (unsigned k = 0; k < face.mNumIndices; ++k) {
         if (face.mIndices[k] >= mesh.mNumVertices)
-          fail_input(file_.path(), "has a face with a corner that does not exist");
+          fail_input(path_, "has a face with a corner that does not exist");
       }
-      out.polygon({face.mIndices, face.mNumIndices});
+      out_.polygon({face.mIndices, face.mNumIndices});
     }
-    out.finish();
+    out_.end();
   }
 
-  const File& file_;
-  const aiScene& scene_;
-  DecoderOutput& out_;
-};
+  void send_material(unsigned index) {
+    if (index >= scene_.mNumMaterials) return out_.material("", {});
+    const aiMaterial& material = *scene_.mMaterials[index];
+    const std::string name = material.GetName().C_Str();
+    if (name == AI_DEFAULT_MATERIAL_NAME || name == "%%%DEFAULT") return out_.material("", {});
+    out_.material(name, colour_of(material));
+  }
 
-// FBX stores the number of its vertical axis, and its sign.
-Affine up_axis_to_y(const aiScene& scene) {
-  int axis = 1, sign = 1;
-  if (scene.mMetaData == nullptr || !scene.mMetaData->Get("UpAxis", axis) || axis < 0 || axis > 2)
-    return {};
-  scene.mMetaData->Get("UpAxisSign", sign);
-  return parse_up((sign < 0 ? "-" : "") + std::string(1, "xyz"[axis]));
-}
+  const std::string& path_;
+  const aiScene& scene_;
+  NamedMeshSender& out_;
+};
 
 void append_utf8(uint32_t c, std::string* out) {
   const auto put = [&](uint32_t byte) { out->push_back(char(byte)); };
@@ -175,110 +145,41 @@ std::string without_leading_blanks(const std::string& text) {
   return tight;
 }
 
-struct AssimpFormat {
-  std::string name;
-  const char* hint;  // Assimp chooses its reader by it
-};
-
-void decode_scene(const File& file, std::span<const std::byte> bytes, const AssimpFormat& format,
-                  DecoderOutput* out) {
-  Assimp::Importer importer;
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
-  const aiScene* scene = nullptr;
-  std::string text;
-  if (format.name == "COLLADA") {
-    text = without_leading_blanks(utf8_text(bytes));
-    bytes = std::as_bytes(std::span(text));
-  }
-  try {
-    scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, format.hint);
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception&) {
-  }
-  // Assimp catches std::bad_alloc.
-  const std::string why = importer.GetErrorString();
-  if (why.find("bad_alloc") != why.npos) throw std::bad_alloc();
-  if (scene == nullptr || scene->mRootNode == nullptr)
-    fail_input(file.path(), "is not a valid " + format.name + " file: " + why);
-  Sender(file, *scene, out).send_node(*scene->mRootNode, up_axis_to_y(*scene), {}, 0);
-}
-
-// Passes on the meshes of a child, by the names of their headers.
-class Receiver {
- public:
-  Receiver(const ReadOptions& options, MeshWriter* out)
-      : options_(options), out_(*out), mesh_(out) {}
-
-  const LeftOut& left_out() const { return left_out_; }
-
-  void take(const DecoderMessage& message) {
-    if (message.kind() == kMeshHead) {
-      head_ = message.record<MeshHead>();
-      wanted_ = false;
-    } else if (message.kind() == kMeshNames) {
-      take_names(message.text());
-    } else if (wanted_) {
-      mesh_.receive(message);
-    }
-  }
-
- private:
-  void take_names(std::string_view text) {
-    const std::string material(text.substr(0, text.find('\0')));
-    const NameFilter& filter = *options_.names;
-    // All are called in any case: they record which patterns match.
-    bool included = filter.includes(PartKind::kMaterial, material) || options_.file_included;
-    bool excluded = filter.excludes(PartKind::kMaterial, material);
-    std::string name;
-    for (size_t at = text.find('\0'); at != text.npos; at = text.find('\0', at + 1)) {
-      name = text.substr(at + 1, text.find('\0', at + 1) - at - 1);
-      included |= filter.includes(PartKind::kObject, name);
-      excluded |= filter.excludes(PartKind::kObject, name);
-    }
-    wanted_ = included && !excluded;
-    if (!wanted_) return;
-    if (head_.has_lines != 0) left_out_.add(Omission::kPointsOrLines);
-    mesh_.begin(head_.vertices);
-    out_.mirrored(head_.is_mirrored != 0);
-    out_.mesh(name, head_.undeformed != 0);
-    out_.material(material, head_.has_colour != 0 ? std::optional(head_.colour) : std::nullopt);
-  }
-
-  const ReadOptions& options_;
-  MeshWriter& out_;
-  DecodedMeshReceiver mesh_;
-  MeshHead head_;
-  LeftOut left_out_;
-  bool wanted_ = false;
-};
-
-LeftOut read_with_assimp(const File& file, const AssimpFormat& format, const ReadOptions& options,
-                         MeshWriter* out) {
-  const auto memory = options.budget->reserve(file.size(), (format.name + " files").c_str());
-  std::vector<std::byte> bytes(size_t(file.size()));
-  file.read_at(0, bytes);
-  Receiver receiver(options, out);
-  run_decoder(
-      decoder_limits(bytes.size(), *options.budget), file.path(), options.sandbox,
-      [&](DecoderOutput& decoder) { decode_scene(file, bytes, format, &decoder); },
-      [&](const DecoderMessage& message) { receiver.take(message); });
-  return receiver.left_out();
+// `hint`: Assimp chooses its reader by it.
+LeftOut read_with_assimp(const File& file, const char* format, const char* hint,
+                         const ReadOptions& options, MeshWriter* out) {
+  return read_named_meshes(
+      file, format, options, out,
+      [&](std::span<const std::byte> bytes, const std::string& path, NamedMeshSender* sender) {
+        Assimp::Importer importer;
+        const aiScene* scene = nullptr;
+        std::string text;
+        if (hint == kCollada) {
+          text = without_leading_blanks(utf8_text(bytes));
+          bytes = std::as_bytes(std::span(text));
+        }
+        try {
+          scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, hint);
+        } catch (const std::bad_alloc&) {
+          throw;
+        } catch (const std::exception&) {
+        }
+        // Assimp catches std::bad_alloc.
+        const std::string why = importer.GetErrorString();
+        if (why.find("bad_alloc") != why.npos) throw std::bad_alloc();
+        if (scene == nullptr || scene->mRootNode == nullptr)
+          fail_input(path, std::string("is not a valid ") + format + " file: " + why);
+        Sender(path, *scene, sender).send_node(*scene->mRootNode, {}, {}, 0);
+      });
 }
 
 }  // namespace
 
-LeftOut read_fbx(const File& file, const ReadOptions& options, MeshWriter* out) {
-  return read_with_assimp(file, {"FBX", "fbx"}, options, out);
-}
 LeftOut read_collada(const File& file, const ReadOptions& options, MeshWriter* out) {
-  return read_with_assimp(file, {"COLLADA", "dae"}, options, out);
-}
-LeftOut read_3mf(const File& file, const ReadOptions& options, MeshWriter* out) {
-  return read_with_assimp(file, {"3MF", "3mf"}, options, out);
+  return read_with_assimp(file, "COLLADA", kCollada, options, out);
 }
 LeftOut read_3ds(const File& file, const ReadOptions& options, MeshWriter* out) {
-  return read_with_assimp(file, {"3DS", "3ds"}, options, out);
+  return read_with_assimp(file, "3DS", "3ds", options, out);
 }
 
 }  // namespace svdag

@@ -144,5 +144,16 @@ TEST(Trigonometry, IsWithinTwoRoundings) {
   }
 }
 
+TEST(Trigonometry, AnglesMayBeOfAnySize) {
+  for (double x = 1e-9; x < 1e6; x *= 1.001) {
+    for (const double angle : {x, -x}) {
+      EXPECT_NEAR(sine_of_angle(angle), std::sin(angle), 1e-15) << angle;
+      EXPECT_NEAR(cosine_of_angle(angle), std::cos(angle), 1e-15) << angle;
+    }
+  }
+  for (const double angle : {1e12, 1e300, HUGE_VAL, -HUGE_VAL, double(NAN)})
+    EXPECT_LE(std::abs(sine_of_angle(angle)), 1) << angle;
+}
+
 }  // namespace
 }  // namespace svdag

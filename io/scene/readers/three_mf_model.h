@@ -1,0 +1,67 @@
+// One part of a 3MF archive: its objects and build items, parsed from XML with expat.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "io/affine.h"
+#include "io/colour.h"
+#include "io/scene/mesh/left_out.h"
+
+namespace svdag {
+
+// A component of an object, or an item of the build.
+struct ThreeMfReference {
+  std::string part;  // "" is the part of the reference; else its name, without the first slash
+  uint32_t object = 0;
+  Affine to_parent;
+  bool is_printable = true;
+};
+
+// The number of a resource and an index in it; 0 is no resource.
+using ThreeMfProperty = std::pair<uint32_t, uint32_t>;
+
+struct ThreeMfObject {
+  std::string name;
+  LeftOut left_out;
+  std::vector<Point> vertices;
+  std::vector<std::array<uint32_t, 3>> triangles;
+  std::vector<uint32_t> property_of;        // of each triangle: an index of `properties`
+  std::vector<ThreeMfProperty> properties;  // in the order of their first use
+  std::vector<ThreeMfReference> components;
+  bool is_open = false;  // an instance of it is being sent
+};
+
+struct ThreeMfMaterial {
+  std::string name;
+  std::optional<Colour> colour;
+};
+
+struct ThreeMfModel {
+  double unit_metres = 0.001;
+  std::map<uint32_t, ThreeMfObject> objects;
+  std::map<uint32_t, std::vector<ThreeMfMaterial>> materials;  // by the number of their group
+  std::vector<ThreeMfReference> items;
+  LeftOut left_out;  // of the whole part
+};
+
+// Passes the bytes of an XML file to its argument, the last time with is_last.
+using XmlSource =
+    std::function<void(const std::function<void(std::string_view piece, bool is_last)>&)>;
+
+// `where`: the archive and the part, for errors. Damaged XML, a triangle with a vertex that does
+// not exist and the like are an Error (kBadInput).
+ThreeMfModel parse_three_mf_model(const XmlSource& source, const std::string& where);
+
+// The name of the part that holds the model, from the archive's relationships; "" if they name
+// none.
+std::string parse_three_mf_relationships(const XmlSource& source, const std::string& where);
+
+}  // namespace svdag
