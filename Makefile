@@ -193,14 +193,10 @@ deb: build
 
 # nvcc from PATH, or from pinned wheels (300 MB, into build/cuda-venv).
 cuda: deps
-	@command -v nvcc >/dev/null || $(MAKE) -s cuda-packages
 	@nvcc=$$(command -v nvcc || sh verify/trace/program/install_nvcc.sh build/cuda-venv) && \
 	CUDACXX=$$nvcc cmake --preset cuda --log-level=WARNING >/dev/null && \
 	cmake --build --preset cuda --target svdag-trace && \
 	echo "build/cuda/svdag-trace"
-
-cuda-packages:
-	$(call install,python3-venv)
 
 # The pictures of docs/images/, all of generated scenes.
 pictures: build
