@@ -55,7 +55,7 @@ PYTHON = /usr/bin/python3 -B
 
 .PHONY: all deps build demo test test-sanitized test-farm test-python test-view stress fuzz-long bench bench-before bench-giants bench-sort \
   bench-out-of-core bench-cache bench-accuracy bench-plan bench-vdb bench-trace bench-cuda bench-size bench-layers bench-solid bench-python bundle wheel deb cuda \
-  cuda-packages pictures clean
+  pictures clean
 all: build
 
 # $(call install,PACKAGES): nothing if all are there; never a prompt.
