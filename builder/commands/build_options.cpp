@@ -8,7 +8,6 @@
 #include "builder/commands/options.h"
 #include "io/help/command_line.h"
 #include "io/scene/scene_formats.h"
-#include "io/suggest.h"
 #include "io/units.h"
 #include "streaming/counts.h"
 #include "streaming/error.h"
@@ -150,11 +149,9 @@ BakeCommand parse_bake(const std::vector<std::string>& arguments, const BakeComm
   constexpr const char* kOfTheList =
       "help, dry-run and json are not options of one bake in a list: give them to svdag batch";
   try {
-    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+    parse_words(&app, arguments);
   } catch (const CLI::CallForHelp&) {
     fail_usage(kOfTheList);
-  } catch (const CLI::ParseError& error) {
-    fail_usage(explain(app, arguments, error));
   }
   if (options.dry_run || options.bake.output.json) fail_usage(kOfTheList);
   return options.bake;

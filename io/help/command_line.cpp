@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
+#include <iterator>
+#include <sstream>
 
 #include "io/help/help_text.h"
-#include "io/help/lost_value.h"
-#include "io/suggest.h"
+#include "io/help/usage_error.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/process/terminal.h"
@@ -15,48 +16,37 @@
 namespace svdag {
 namespace {
 
-// A hint is stored in CLI11 as the name of a validator: one of these prefixes, and words.
-constexpr const char* kChoices = "choices ";
-constexpr const char* kEndings = "endings ";
+// A hint is stored as CLI11's text of an option, which only its own help shows: one of these, and
+// words.
+constexpr const char* kChoices = "choices";
+constexpr const char* kEndings = "endings";
 
 constexpr uint64_t kMinMemory = 1 << 20;  // less does not suffice to read even small scenes
 
-CLI::Option* hint(CLI::Option* option, const char* kind, const std::vector<std::string>& words,
-                  CLI::Validator validator = CLI::Validator("")) {
-  std::string name = kind;
-  for (const std::string& word : words) name += word + " ";
-  return option->check(validator.name(name));
+CLI::Option* hint(CLI::Option* option, std::string text, const std::vector<std::string>& words) {
+  for (const std::string& word : words) text += " " + word;
+  return option->option_text(text);
 }
 
-// Returns the error. CLI11 itself would read -1, and numbers that are too large, as 2^64 - 1.
-std::string check_whole_number(const std::string& text) {
-  uint64_t value = 0;
-  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool whole = read.ec == std::errc() && read.ptr == text.data() + text.size();
-  return whole ? "" : "\"" + text + "\" is not a whole number from 0 to 2^64 - 1";
-}
-
-// Returns the error. An empty name is a mistake, such as an unset variable in a script.
-std::string check_not_empty(const std::string& name) {
-  return name.empty() ? "the name is empty" : "";
-}
-
-// The words of a hint.
 std::vector<std::string> hint_words(const CLI::Option& option, const std::string& kind) {
-  std::vector<std::string> words;
-  auto& validators = const_cast<CLI::Option&>(option);  // CLI11 has no const accessor
-  for (int i = 0;; ++i) {
-    const CLI::Validator* validator = nullptr;
-    try {
-      validator = validators.get_validator(i);
-    } catch (const CLI::OptionNotFound&) {  // the only sign of the end of the list
-      return words;
-    }
-    const std::string& name = validator->get_name();
-    if (name.compare(0, kind.size(), kind) != 0) continue;
-    for (size_t at = kind.size(); at < name.size(); at = name.find(' ', at) + 1)
-      words.push_back(name.substr(at, name.find(' ', at) - at));
-  }
+  std::istringstream text(option.get_option_text());
+  std::vector<std::string> words{std::istream_iterator<std::string>(text), {}};
+  if (words.empty() || words[0] != kind) return {};
+  words.erase(words.begin());
+  return words;
+}
+
+// Accepts only these numbers: CLI11 itself would read -1, and numbers that are too large, as
+// 2^64 - 1.
+CLI::Option* accept_numbers(CLI::Option* option, uint64_t min, uint64_t max,
+                            const std::string& expected) {
+  return option->check([=](const std::string& text) {
+    uint64_t value = 0;
+    const char* end = text.data() + text.size();
+    const auto read = std::from_chars(text.data(), end, value);
+    const bool valid = read.ec == std::errc() && read.ptr == end && value >= min && value <= max;
+    return valid ? "" : "\"" + text + "\" is not a " + expected;
+  });
 }
 
 std::string with_conditions(const CLI::Option& option) {
@@ -119,81 +109,48 @@ Manual describe(const CLI::App& app, const std::string& command) {
   return manual;
 }
 
-// The manual of the command whose --help is requested.
-Manual requested_manual(const CLI::App& program) {
-  const std::vector<const CLI::App*> parsed = program.get_subcommands(
-      [](const CLI::App* each) { return each->parsed() && !each->get_name().empty(); });
-  return parsed.empty()
-             ? manual_of(program)
-             : describe(*parsed.front(), program.get_name() + " " + parsed.front()->get_name());
-}
-
-// Turns "help mesh" into "mesh --help", for a program without a command "help".
-std::vector<char*> help_command_to_option(const Manual& program, int argc, char** argv) {
-  static char option[] = "--help";
-  std::vector<char*> words(argv, argv + argc);
-  const auto is_help = [&](const Manual& each) {
-    return each.command == program.command + " help";
-  };
-  if (argc < 2 || std::string_view(argv[1]) != "help" || program.commands.empty() ||
-      std::any_of(program.commands.begin(), program.commands.end(), is_help))
-    return words;
-  words.erase(words.begin() + 1);
-  words.resize(std::min<size_t>(words.size(), 2));
-  words.push_back(option);
-  return words;
-}
-
-// Turns "--help build" into "build --help", and ignores what follows --version.
-std::vector<char*> help_or_version_first(const CLI::App& program, std::vector<char*> words) {
-  if (words.size() < 3) return words;
-  const std::string_view first = words[1];
-  const bool help = program.get_help_ptr()->check_name(std::string(first));
-  const CLI::Option* version_option = program.get_version_ptr();
-  const bool version = version_option != nullptr && version_option->check_name(std::string(first));
-  if (!help && !version) return words;
-  const bool command = help && words[2][0] != '-';
-  if (command) std::swap(words[1], words[2]);
-  words.resize(command ? 3 : 2);
-  return words;
-}
-
-// Whether the first word is an unknown command, as in "biuld --help", for which CLI11 would print
-// the help of the program.
-bool is_unknown_command(const CLI::App& program, int argc, char** argv) {
-  return argc > 1 && argv[1][0] != '-' && !manual_of(program).commands.empty() &&
-         requested_manual(program).command == program.get_name();
-}
-
 }  // namespace
 
 Manual manual_of(const CLI::App& program) {
   return describe(program, program.get_name());
 }
 
+void parse_words(CLI::App* program, const std::vector<std::string>& words) {
+  const Manual manual = manual_of(*program);
+  const std::string problem = explain_words(manual, words);
+  if (!problem.empty()) fail_usage(problem);
+  try {
+    program->parse(std::vector<std::string>(words.rbegin(), words.rend()));
+  } catch (const CLI::Success&) {
+    throw;
+  } catch (const CLI::ParseError& error) {
+    fail_usage(plain_usage_error(error.what()) + "; see " + command_of(manual, words).command +
+               " --help");
+  }
+}
+
 std::optional<int> read_command_line(CLI::App* program, int argc, char** argv) {
-  if (argc == 2 && std::string_view(argv[1]) == kManualTable) {
-    std::fputs(to_table(manual_of(*program)).c_str(), stdout);
+  const Manual manual = manual_of(*program);
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  if (words == std::vector<std::string>{kManualJson}) {
+    std::fputs(manual_json(manual).c_str(), stdout);
     return 0;
   }
-  std::vector<char*> words = help_command_to_option(manual_of(*program), argc, argv);
-  words = help_or_version_first(*program, std::move(words));
-  argc = int(words.size());
-  argv = words.data();
-  const std::vector<std::string> given(argv + std::min(argc, 1), argv + argc);
-  const std::string missing = explain_missing_value(*program, given);
-  if (!missing.empty()) fail_usage(missing);
+  // "help mesh" is "mesh --help" of a program with commands, of which none is "help".
+  const bool is_help = !words.empty() && words[0] == "help" && !manual.commands.empty() &&
+                       &command_of(manual, words) == &manual;
+  if (is_help) {
+    words.erase(words.begin());
+    words.push_back("--help");
+  }
   try {
-    program->parse(argc, argv);
+    parse_words(program, words);
     return std::nullopt;
-  } catch (const CLI::CallForHelp& call) {
-    if (is_unknown_command(*program, argc, argv)) fail_usage(explain(*program, given, call));
-    std::fputs(help_text(requested_manual(*program), text_width(stdout)).c_str(), stdout);
+  } catch (const CLI::CallForHelp&) {
+    std::fputs(help_text(command_of(manual, words), text_width(stdout)).c_str(), stdout);
     return 0;
   } catch (const CLI::Success& success) {  // --version
     return program->exit(success);
-  } catch (const CLI::ParseError& error) {
-    fail_usage(explain(*program, given, error));
   }
 }
 
@@ -202,41 +159,38 @@ CLI::Option* suggests(CLI::Option* option, const std::vector<std::string>& choic
 }
 
 CLI::Option* one_of(CLI::Option* option, const std::vector<std::string>& choices) {
-  const auto check = [choices](const std::string& value) {
-    if (std::find(choices.begin(), choices.end(), value) != choices.end()) return std::string();
+  return suggests(option->check([choices](const std::string& value) {
     std::string list;
-    for (const std::string& choice : choices) list += (list.empty() ? "" : ", ") + choice;
+    for (const std::string& choice : choices) {
+      if (choice == value) return std::string();
+      list += (list.empty() ? "" : ", ") + choice;
+    }
     return "\"" + value + "\" is not one of " + list;
-  };
-  return suggests(option->check(CLI::Validator(check, "")), choices);
+  }),
+                  choices);
 }
 
 CLI::Option* takes_files(CLI::Option* option, const std::vector<std::string>& endings) {
-  return hint(option, kEndings, endings, CLI::Validator(check_not_empty, ""));
-}
-
-CLI::Option* takes_whole_number(CLI::Option* option) {
-  return option->check(CLI::Validator(check_whole_number, ""));
+  // An empty name is a mistake, such as an unset variable in a script.
+  const auto check = [](const std::string& name) {
+    return name.empty() ? "the name is empty" : "";
+  };
+  return hint(option->check(check), kEndings, endings);
 }
 
 CLI::Option* takes_folder(CLI::Option* option) {
   return takes_files(option, {"/"});
 }
 
+CLI::Option* takes_whole_number(CLI::Option* option) {
+  return accept_numbers(option, 0, UINT64_MAX, "whole number from 0 to 2^64 - 1");
+}
+
 CLI::Option* from_to(CLI::Option* option, size_t min, size_t max) {
   const std::string range = std::to_string(min) + " to " + std::to_string(max);
   std::string text = option->get_description();
-  const size_t end = std::min(text.find(" (default"), text.size());
-  text.insert(end, ", " + range);
-  option->description(text);
-  const auto check = [=](const std::string& value) {
-    uint64_t number = 0;
-    const auto read = std::from_chars(value.data(), value.data() + value.size(), number);
-    const bool inside = read.ec == std::errc() && read.ptr == value.data() + value.size() &&
-                        number >= min && number <= max;
-    return inside ? std::string() : "\"" + value + "\" is not a number from " + range;
-  };
-  return option->check(CLI::Validator(check, ""));
+  text.insert(std::min(text.find(" (default"), text.size()), ", " + range);
+  return accept_numbers(option->description(text), min, max, "number from " + range);
 }
 
 void add_no_clobber(CLI::App* command, bool* no_clobber) {

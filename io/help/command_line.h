@@ -20,7 +20,12 @@ namespace svdag {
 // The manual of a program: its options and commands.
 Manual manual_of(const CLI::App& program);
 
-// Parses a command line. Returns the exit code if the program has nothing else to do (--help,
+// Parses the words behind a program's name. --help and --version are thrown as CLI::Success; a
+// wrong command line is an Error (kUsage).
+void parse_words(CLI::App* program, const std::vector<std::string>& words);
+
+// Parses the command line of a program. Returns the exit code if the program has nothing else to do
+// (--help,
 // --version). A wrong command line is an Error (kUsage).
 std::optional<int> read_command_line(CLI::App* program, int argc, char** argv);
 

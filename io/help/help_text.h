@@ -13,7 +13,4 @@ std::string help_text(const Manual& manual, size_t width);
 // Formats a help topic, or the notes of a manual, in the same way.
 std::string fill_paragraphs(std::string_view text, size_t width);
 
-// "-r, --resolution N": an option with all its names, or an operand.
-std::string title_of(const ManualOption& option);
-
 }  // namespace svdag

@@ -2,8 +2,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <nlohmann/json.hpp>
 
 namespace svdag {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ManualOption, names, value, text, group, choices, endings,
+                                   required, repeated)
+
 namespace {
 
 bool is_heading(const std::string& line) {
@@ -13,22 +18,16 @@ bool is_heading(const std::string& line) {
          });
 }
 
+nlohmann::json json_of(const Manual& manual) {
+  nlohmann::json json = {{"command", manual.command},          {"text", manual.text},
+                         {"usage", usage_of(manual)},          {"notes", manual.notes},
+                         {"operands", manual.operands},        {"options", manual.options},
+                         {"commands", nlohmann::json::array()}};
+  for (const Manual& command : manual.commands) json["commands"].push_back(json_of(command));
+  return json;
+}
+
 }  // namespace
-
-std::vector<std::string> groups_of(const std::vector<ManualOption>& options) {
-  std::vector<std::string> groups;
-  for (const ManualOption& option : options) {
-    if (std::find(groups.begin(), groups.end(), option.group) == groups.end())
-      groups.push_back(option.group);
-  }
-  return groups;
-}
-
-std::string page_of(const std::string& command) {
-  std::string page = command;
-  std::replace(page.begin(), page.end(), ' ', '-');
-  return page;
-}
 
 std::string usage_of(const Manual& manual) {
   if (!manual.commands.empty()) return "COMMAND [OPTIONS]";
@@ -69,6 +68,10 @@ std::vector<Paragraph> paragraphs_of(std::string_view text) {
     starts_paragraph = false;
   }
   return paragraphs;
+}
+
+std::string manual_json(const Manual& manual) {
+  return json_of(manual).dump(1) + "\n";
 }
 
 }  // namespace svdag

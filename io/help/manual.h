@@ -2,10 +2,9 @@
 //
 // A program builds its manual from the options that it parses (command_line.h); --help formats it
 // for the width of a terminal (help_text.h). Man pages and completions are written at build time:
-// each program prints its manual as a table when it is called with kManualTable, and svdag-manual
-// (io/help/pages) reads the tables. So no program contains a writer of roff or links another
-// program. Parsing the text of --help, as help2man does, would lose which values and files an
-// option takes.
+// each program prints its manual as JSON when it is called with kManualJson, and a script
+// (pages/write_pages.py) reads them. Parsing the text of --help, as help2man does, would lose which
+// values and files an option takes.
 #pragma once
 
 #include <string>
@@ -14,8 +13,8 @@
 
 namespace svdag {
 
-// The hidden argument that makes a program print its manual as a table.
-inline constexpr const char* kManualTable = "--manual-table";
+// The hidden argument that makes a program print its manual as JSON.
+inline constexpr const char* kManualJson = "--manual-json";
 
 // The last paragraph of the notes of every command.
 inline constexpr const char* kExitCodes =
@@ -41,12 +40,6 @@ struct Manual {
   std::vector<Manual> commands;  // subcommands of a program
 };
 
-// The headings of options, in order of first appearance.
-std::vector<std::string> groups_of(const std::vector<ManualOption>& options);
-
-// "svdag-build": the name of a command's page.
-std::string page_of(const std::string& command);
-
 // "-o OUT [OPTIONS] SCENE...": what follows the command's name.
 std::string usage_of(const Manual& manual);
 
@@ -59,9 +52,7 @@ struct Paragraph {
 };
 std::vector<Paragraph> paragraphs_of(std::string_view text);
 
-// The manual as a table: a line per command, option and line of notes, with tab-separated fields.
-std::string to_table(const Manual& manual);
-// The programs of concatenated tables. Text that to_table() did not write is an Error (kUsage).
-std::vector<Manual> from_table(std::string_view table);
+// The manual as JSON, with usage_of() each command.
+std::string manual_json(const Manual& manual);
 
 }  // namespace svdag

@@ -116,7 +116,7 @@ $ list "{$A, \"report\": \"l.json\"}"
 | svdag: l.json: bake 1: l.json is also an input, which is never overwritten: choose another output
 | exit 2
 $ list '{"scene": "h.ply", "resolution": 64, "output": ""}'
-| svdag: l.json: bake 1: --output: the name is empty; see svdag build --help
+| svdag: l.json: bake 1: --output: the value is empty; see svdag build --help
 | exit 2
 $ cmp h.ply h2.ply
 $ cmp h2.ply kept.ply

@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "builder/commands/options.h"
-#include "io/suggest.h"
+#include "io/help/command_line.h"
 #include "tests/fuzz/file_fuzz.h"
 
 namespace svdag {
@@ -25,16 +25,11 @@ class Program {
     add_info(&app_, &command_);
   }
 
-  void parse(std::vector<std::string> words) {
+  void parse(const std::vector<std::string>& words) {
     command_ = {};
-    std::vector<char*> argv;
-    for (std::string& word : words) argv.push_back(word.data());
     try {
-      app_.parse(int(argv.size()), argv.data());
+      parse_words(&app_, words);
     } catch (const CLI::Success&) {
-    } catch (const CLI::ParseError& error) {
-      words.erase(words.begin());
-      fail_usage(explain(app_, words, error));
     }
     const auto* bake = std::get_if<BakeCommand>(&command_);
     const auto* merge = std::get_if<MergeCommand>(&command_);
@@ -51,12 +46,12 @@ class Program {
 }  // namespace svdag
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  std::vector<std::string> words = {"svdag"};
+  std::vector<std::string> words;
   for (size_t i = 0; i < size && words.size() < svdag::kMaxWords; ++i) {
     if (i == 0 || data[i] == '\n') words.emplace_back();
     if (data[i] != '\n' && data[i] != 0) words.back() += char(data[i]);
   }
   static svdag::Program program;
-  svdag::expect_only_errors([&] { program.parse(std::move(words)); }, svdag::ExitCode::kUsage);
+  svdag::expect_only_errors([&] { program.parse(words); }, svdag::ExitCode::kUsage);
   return 0;
 }

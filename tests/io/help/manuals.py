@@ -1,5 +1,6 @@
-"""What the programs say about themselves: their manuals, as tables (io/help/manual.h)."""
+"""What the programs say about themselves: their manuals, as JSON (io/help/manual.h)."""
 import dataclasses
+import json
 import re
 import subprocess
 
@@ -32,18 +33,16 @@ class Command:
 def commands(programs):
     """{"svdag build": Command}; those of svdag-export and svdag-import as commands of svdag."""
     found = {}
+
+    def options(rows):
+        return [Option(row["names"], row["value"], row["choices"], row["endings"], row["text"]) for row in rows]
+
     for program in PROGRAMS:
-        table = subprocess.run([programs / program, "--manual-table"], check=True, capture_output=True, text=True).stdout
-        for line in table.splitlines():
-            kind, *fields = line.split("\t")
-            if kind in ("program", "command"):
-                command = found[fields[0]] = Command(fields[0])
-            elif kind == "note":
-                command.notes.append(fields[0])
-            else:
-                names, value, _, choices, endings, _, _, text = fields
-                option = Option(names.split(), value, choices.split(), endings.split(" ") if endings else [], text)
-                (command.operands if kind == "operand" else command.options).append(option)
+        printed = subprocess.run([programs / program, "--manual-json"], check=True, capture_output=True, text=True).stdout
+        manual = json.loads(printed)
+        for command in [manual, *manual["commands"]]:
+            found[command["command"]] = Command(command["command"], options(command["operands"]),
+                                                options(command["options"]), command["notes"].split("\n"))
     return found
 
 
