@@ -49,20 +49,6 @@ CLI::Option* accept_numbers(CLI::Option* option, uint64_t min, uint64_t max,
   });
 }
 
-std::string with_conditions(const CLI::Option& option) {
-  std::string text = option.get_description();
-  for (const CLI::Option* other : option.get_needs()) text += " (needs " + other->get_name() + ")";
-  for (const CLI::Option* other : option.get_excludes())
-    text += " (not with " + other->get_name() + ")";
-  return text;
-}
-
-std::string heading_of(const CLI::App& group) {
-  std::string name = group.get_group();
-  if (group.get_require_option_min() == 1) name += " (exactly one is required)";
-  return name;
-}
-
 // `heading` is "" for the command itself, whose options are in CLI11's group "Options".
 ManualOption describe_option(const CLI::Option& option, const std::string& heading) {
   ManualOption described;
@@ -71,10 +57,13 @@ ManualOption describe_option(const CLI::Option& option, const std::string& headi
   if (option.get_positional()) described.names = {option.get_name(true)};
   const bool is_flag = option.get_items_expected_max() == 0;
   if (!is_flag && !option.get_positional()) described.value = option.get_type_name();
-  described.text = with_conditions(option);
-  described.group = !heading.empty()                  ? heading
-                    : option.get_group() == "Options" ? ""
-                                                      : option.get_group();
+  described.text = option.get_description();
+  for (const CLI::Option* other : option.get_needs())
+    described.text += " (needs " + other->get_name() + ")";
+  for (const CLI::Option* other : option.get_excludes())
+    described.text += " (not with " + other->get_name() + ")";
+  described.group = heading;
+  if (heading.empty() && option.get_group() != "Options") described.group = option.get_group();
   described.choices = hint_words(option, kChoices);
   described.endings = hint_words(option, kEndings);
   described.required = option.get_required();
@@ -83,36 +72,32 @@ ManualOption describe_option(const CLI::Option& option, const std::string& headi
   return described;
 }
 
-void describe_options(const CLI::App& app, const std::string& heading, Manual* manual) {
-  for (const CLI::App* group : app.get_subcommands({})) {
-    if (group->get_name().empty()) describe_options(*group, heading_of(*group), manual);
+// Adds the options of a command, or of a group of options, and its commands.
+void describe(const CLI::App& app, const std::string& heading, Manual* manual) {
+  for (const CLI::App* each : app.get_subcommands({})) {
+    if (each->get_name().empty()) {
+      const bool one = each->get_require_option_min() == 1;
+      describe(*each, each->get_group() + (one ? " (exactly one is required)" : ""), manual);
+      continue;
+    }
+    manual->commands.push_back(manual_of(*each));
+    manual->commands.back().command = manual->command + " " + each->get_name();
   }
   for (const CLI::Option* option : app.get_options()) {
     if (option->get_group().empty()) continue;  // hidden
     if (!heading.empty() && option == app.get_help_ptr())
       continue;  // CLI11 adds one to every group
-    ManualOption described = describe_option(*option, heading);
-    (option->get_positional() ? manual->operands : manual->options).push_back(std::move(described));
+    (option->get_positional() ? manual->operands : manual->options)
+        .push_back(describe_option(*option, heading));
   }
-}
-
-Manual describe(const CLI::App& app, const std::string& command) {
-  Manual manual;
-  manual.command = command;
-  manual.text = app.get_description();
-  manual.notes = app.get_footer();
-  describe_options(app, "", &manual);
-  for (const CLI::App* each : app.get_subcommands({})) {
-    if (!each->get_name().empty())
-      manual.commands.push_back(describe(*each, command + " " + each->get_name()));
-  }
-  return manual;
 }
 
 }  // namespace
 
 Manual manual_of(const CLI::App& program) {
-  return describe(program, program.get_name());
+  Manual manual = {program.get_name(), program.get_description(), {}, {}, program.get_footer(), {}};
+  describe(program, "", &manual);
+  return manual;
 }
 
 void parse_words(CLI::App* program, const std::vector<std::string>& words) {
@@ -137,9 +122,8 @@ std::optional<int> read_command_line(CLI::App* program, int argc, char** argv) {
     return 0;
   }
   // "help mesh" is "mesh --help" of a program with commands, of which none is "help".
-  const bool is_help = !words.empty() && words[0] == "help" && !manual.commands.empty() &&
-                       &command_of(manual, words) == &manual;
-  if (is_help) {
+  if (!manual.commands.empty() && &command_of(manual, words) == &manual && !words.empty() &&
+      words[0] == "help") {
     words.erase(words.begin());
     words.push_back("--help");
   }
@@ -159,15 +143,11 @@ CLI::Option* suggests(CLI::Option* option, const std::vector<std::string>& choic
 }
 
 CLI::Option* one_of(CLI::Option* option, const std::vector<std::string>& choices) {
-  return suggests(option->check([choices](const std::string& value) {
-    std::string list;
-    for (const std::string& choice : choices) {
-      if (choice == value) return std::string();
-      list += (list.empty() ? "" : ", ") + choice;
-    }
-    return "\"" + value + "\" is not one of " + list;
-  }),
-                  choices);
+  const auto check = [choices](const std::string& value) {
+    if (std::ranges::find(choices, value) != choices.end()) return std::string();
+    return "\"" + value + "\" is not one of " + CLI::detail::join(choices, ", ");
+  };
+  return suggests(option->check(check), choices);
 }
 
 CLI::Option* takes_files(CLI::Option* option, const std::vector<std::string>& endings) {
@@ -210,16 +190,13 @@ void add_memory_budget(CLI::App* command, uint64_t* bytes, const std::string& te
 }
 
 void add_layout(CLI::App* command, Layout* layout) {
-  const auto read = [layout](const std::string& name) {
-    for (const Layout known : {Layout::kPlain, Layout::kCompact}) {
-      if (name == layout_name(known)) return void(*layout = known);
-    }
-    fail_usage("--layout: unknown layout \"" + name + "\": choose plain or compact");
-  };
-  suggests(command->add_option_function<std::string>(
-               "--layout", read,
-               "plain (default), or compact: less than half the bytes, traced almost as fast"),
-           {"plain", "compact"})
+  one_of(command->add_option_function<std::string>(
+             "--layout",
+             [layout](const std::string& name) {
+               *layout = name == layout_name(Layout::kPlain) ? Layout::kPlain : Layout::kCompact;
+             },
+             "plain (default), or compact: less than half the bytes, traced almost as fast"),
+         {layout_name(Layout::kPlain), layout_name(Layout::kCompact)})
       ->type_name("LAYOUT");
 }
 

@@ -11,25 +11,23 @@ import re
 import sys
 
 
-def groups(options):
-    """{heading: options}, in order of first appearance."""
-    found = {}
-    for option in options:
-        found.setdefault(option["group"], []).append(option)
-    return found
-
-
-def word_of(command):
-    """"build" of "svdag build"; "" for a program."""
-    return command["command"].partition(" ")[2]
-
-
-def page_of(command):
-    return command["command"].replace(" ", "-")
-
-
-def function_of(command):
-    return "_" + page_of(command).replace("-", "_")
+def read(files):
+    """(programs, {topic: text}). svdag-export prints the manual of `svdag export`; svdag describes it in a line."""
+    programs, topics = [], {}
+    for file in map(pathlib.Path, files):
+        if file.suffix == ".txt":
+            topics[file.stem] = file.read_text()
+            continue
+        manual = json.loads(file.read_text())
+        same = [each for program in programs for each in program["commands"] if each["command"] == manual["command"]]
+        for each in same:
+            each.update(manual, text=each["text"])
+        programs += [] if same else [manual]
+    for command in [each for program in programs for each in [program, *program["commands"]]]:
+        command["word"] = command["command"].partition(" ")[2]  # "build" of "svdag build"; "" for a program
+        command["page"] = command["command"].replace(" ", "-")
+        command["function"] = "_" + command["page"].replace("-", "_")
+    return programs, topics
 
 
 def quoted(text):
@@ -42,33 +40,24 @@ def quoted(text):
 ROFF = str.maketrans({"\\": "\\e", "-": "\\-", "'": "\\(aq", '"': "\\(dq", "^": "\\(ha", "~": "\\(ti", "`": "\\(ga"})
 
 
-def roff(text):
+def roff(text, font=None):
     """A minus that can be copied, straight quotes, and no line that begins like a macro."""
-    return ("\\&" if text.startswith(".") else "") + text.translate(ROFF)
-
-
-def bold(text):
-    return f"\\fB{roff(text)}\\fR"
-
-
-def italic(text):
-    return f"\\fI{roff(text)}\\fR"
+    text = ("\\&" if text.startswith(".") else "") + text.translate(ROFF)
+    return f"\\f{font}{text}\\fR" if font else text
 
 
 def heading(title):
     return f'.SH "{roff(title.upper())}"\n'
 
 
-def top(page, section, what, version):
-    what = (what[:1].lower() + what[1:]).removesuffix(".")
-    return (f'.TH "{roff(page.upper())}" {section} "" "{roff(version)}" "svdag manual"\n' + heading("Name") +
-            f"{roff(page)} \\- {roff(what)}\n")
+def entry(title, text):
+    return f".TP\n{title}\n{roff(text)}\n"
 
 
-def entry(option):
-    names = ", ".join(bold(name) if name.startswith("-") else italic(name) for name in option["names"])
-    value = " " + italic(option["value"]) if option["value"] else "..." if option["repeated"] else ""
-    return f".TP\n{names}{value}\n{roff(option['text'])}\n"
+def option_entry(option):
+    title = ", ".join(roff(name, "B" if name.startswith("-") else "I") for name in option["names"])
+    title += " " + roff(option["value"], "I") if option["value"] else ""
+    return entry(title + ("..." if option["repeated"] else ""), option["text"])
 
 
 def paragraphs(text):
@@ -87,14 +76,14 @@ def paragraphs(text):
 
 def body(text, section=None):
     """Paragraphs before the first heading belong to `section`."""
-    out, headed = "", False
+    out, headed = "", section is None
     for kind, lines in paragraphs(text):
-        exit_codes = lines[0].startswith("Exit codes: ")
+        is_exit = lines[0].startswith("Exit codes: ")
         wanted = section
         if kind == "heading":
             wanted, headed = "Examples" if lines[0] == "Example" else lines[0], True
-        elif kind == "text":
-            wanted = "Exit status" if exit_codes else "Notes" if headed or section is None else section
+        elif kind == "text" and (headed or is_exit):
+            wanted = "Exit status" if is_exit else "Notes"
         if wanted != section:
             out += heading(wanted)
             section = wanted
@@ -102,53 +91,39 @@ def body(text, section=None):
             indent = len(lines[0]) - len(lines[0].lstrip())
             shown = [line[min(indent, len(line) - len(line.lstrip())):] for line in lines]
             out += ".PP\n.RS 4\n.nf\n" + "".join(roff(line) + "\n" for line in shown) + ".fi\n.RE\n"
-        elif exit_codes:
-            out += roff(lines[0].removeprefix("Exit codes: ")) + "\n"
         elif kind == "text":
-            out += f".PP\n{roff(lines[0])}\n"
+            out += ("" if is_exit else ".PP\n") + roff(lines[0].removeprefix("Exit codes: ")) + "\n"
     return out
 
 
-def see_also(pages):
-    return heading("See also") + ",\n".join(f".BR {roff(name)} ({section})" for name, section in pages) + "\n"
-
-
-def command_page(command, version, others):
-    text = command["text"]
-    out = top(page_of(command), 1, text, version)
-    out += heading("Synopsis") + f"{bold(command['command'])} {roff(command['usage'])}\n"
-    out += heading("Description") + roff(text.removesuffix(".")) + ".\n"
-    out += "".join(map(entry, command["operands"]))
-    if command["commands"]:
-        out += heading("Commands")
-    for each in command["commands"]:
-        out += f".TP\n{bold(word_of(each))}\n{roff(each['text'])}\n"
-    for group, options in groups(command["options"]).items():
-        out += heading(group or "Options") + "".join(map(entry, options))
-    return out + body(command["notes"]) + see_also(others)
-
-
-def topic_page(text, version, others):
-    title, _, rest = text.partition("\n")
-    name, _, what = title.partition(": ")
-    return (top(f"svdag-{name}", 7, what, version) + heading("Description") + body(rest, "Description") +
-            see_also(others))
+def command_body(command):
+    out = heading("Synopsis") + f"{roff(command['command'], 'B')} {roff(command['usage'])}\n"
+    out += heading("Description") + roff(command["text"].removesuffix(".")) + ".\n"
+    out += "".join(map(option_entry, command["operands"]))
+    out += heading("Commands") if command["commands"] else ""
+    out += "".join(entry(roff(each["word"], "B"), each["text"]) for each in command["commands"])
+    groups = {}  # in order of first appearance
+    for option in command["options"]:
+        groups[option["group"]] = groups.get(option["group"], "") + option_entry(option)
+    return out + "".join(heading(group or "Options") + text for group, text in groups.items()) + body(command["notes"])
 
 
 def write_man_pages(folder, version, programs, topics):
     """Every page refers to all programs and topics; the page of a program also to its commands."""
-    topic_names = [text.partition(":")[0] for text in topics]
 
-    def others(page, commands=()):
-        names = [(page_of(each), 1) for each in [*programs, *commands]] + [(f"svdag-{name}", 7) for name in topic_names]
-        return [each for each in names if each[0] != page]
+    def write_page(page, section, what, text, commands=()):
+        what = (what[:1].lower() + what[1:]).removesuffix(".")
+        others = [(each["page"], 1) for each in [*programs, *commands]] + [(f"svdag-{topic}", 7) for topic in topics]
+        others = ",\n".join(f".BR {roff(name)} ({number})" for name, number in others if name != page)
+        write(folder / f"man{section}/{page}.{section}",
+              f'.TH "{roff(page.upper())}" {section} "" "{roff(version)}" "svdag manual"\n' + heading("Name") +
+              f"{roff(page)} \\- {roff(what)}\n{text}{heading('See also')}{others}\n")
 
-    for program in programs:
-        for command in [program, *program["commands"]]:
-            page = page_of(command)
-            write(folder / "man1" / f"{page}.1", command_page(command, version, others(page, command["commands"])))
-    for name, text in zip(topic_names, topics):
-        write(folder / "man7" / f"svdag-{name}.7", topic_page(text, version, others(f"svdag-{name}")))
+    for command in [each for program in programs for each in [program, *program["commands"]]]:
+        write_page(command["page"], 1, command["text"], command_body(command), command["commands"])
+    for topic, text in topics.items():
+        title, _, rest = text.partition("\n")
+        write_page(f"svdag-{topic}", 7, title.partition(": ")[2], heading("Description") + body(rest, "Description"))
 
 
 # bash 4 or later
@@ -216,32 +191,40 @@ BASH = r"""
 def bash_kind(option):
     """The value of the script's variable `kind` for an option or operand."""
     if option["choices"]:
-        return "words " + " ".join(option["choices"])
-    if option["endings"]:
-        return "files " + " ".join(ending for ending in option["endings"] if ending != "*")
-    return "value"
+        return quoted("words " + " ".join(option["choices"]))
+    return quoted("files " + " ".join(option["endings"]).strip("*") if option["endings"] else "value")
 
 
 def bash_completion(program):
     kinds = options = ""
     for command in [program, *program["commands"]]:
-        word = word_of(command)
+        word = command["word"]
         for option in command["options"]:
-            if option["value"]:
-                patterns = "|".join(f'"{word} {name}"' for name in option["names"])
-                kinds += f"    {patterns}) kind={quoted(bash_kind(option))} ;;\n"
+            patterns = "|".join(f'"{word} {name}"' for name in option["names"])
+            kinds += f"    {patterns}) kind={bash_kind(option)} ;;\n" if option["value"] else ""
         for number, operand in enumerate(command["operands"]):
             pattern = f'"{word} "[0-9]*' if operand["repeated"] else f'"{word} {number}"'
-            kinds += f"    {pattern}) kind={quoted(bash_kind(operand))} ;;\n"
+            kinds += f"    {pattern}) kind={bash_kind(operand)} ;;\n"
         names = " ".join(name for option in command["options"] for name in option["names"])
         options += f"    {quoted(word)}) options={quoted(names)} ;;\n"
-    commands = f" {' '.join(map(word_of, program['commands']))} "
-    text = (f"# Completion of {program['command']} for bash.\n\n"
-            "# Sets kind: what an option, or the operand of a number, takes.\n"
-            f'@_kind() {{\n  kind=\n  case "$1 $2" in\n{kinds}  esac\n}}\n\n'
-            f"# Sets options: the options of a command.\n@_options() {{\n  case $1 in\n{options}  esac\n}}\n" + BASH +
-            f"\ncomplete -F @ {program['command']}\n")
-    return text.replace("@COMMANDS", commands).replace("@", function_of(program))
+    commands = f" {' '.join(each['word'] for each in program['commands'])} "
+    return f"""# Completion of {program['command']} for bash.
+
+# Sets kind: what an option, or the operand of a number, takes.
+@_kind() {{
+  kind=
+  case "$1 $2" in
+{kinds}  esac
+}}
+
+# Sets options: the options of a command.
+@_options() {{
+  case $1 in
+{options}  esac
+}}
+{BASH}
+complete -F @ {program['command']}
+""".replace("@COMMANDS", commands).replace("@", program["function"])
 
 
 # zsh: one function _svdag for all programs
@@ -253,19 +236,16 @@ def zsh_escaped(text):
 
 def zsh_value(name, option):
     """":N:(thin conservative)": the name of a value and its completions."""
-    action = ""
-    if option["choices"]:
-        action = f"({' '.join(option['choices'])})"
-    elif option["endings"] == ["/"]:
-        action = "_files -/"
-    elif option["endings"] == ["*"]:
-        action = "_files"
-    elif option["endings"]:
-        action = f'_files -g "(#i)*.({"|".join(ending[1:] for ending in option["endings"])})(-.)"'
+    endings = option["endings"]
+    action = f"({' '.join(option['choices'])})" if option["choices"] else "_files" if endings else ""
+    if endings == ["/"]:
+        action += " -/"
+    elif endings and endings != ["*"]:
+        action += f' -g "(#i)*.({"|".join(ending[1:] for ending in endings)})(-.)"'
     return f":{zsh_escaped(name)}:{action}"
 
 
-def zsh_specifications(command):
+def zsh_arguments(command):
     """A specification per name of an option. It excludes the other names unless the option may be repeated."""
     specs = []
     for option in command["options"]:
@@ -281,19 +261,21 @@ def zsh_specifications(command):
 
 
 def zsh_function(name, command):
-    return f"{name}() {{\n  _arguments -s -S{zsh_specifications(command)}\n}}\n\n"
+    return f"{name}() {{\n  _arguments -s -S{zsh_arguments(command)}\n}}\n\n"
 
 
 def zsh_dispatcher(name, program):
     """The first word selects the function that completes the rest."""
-    described = "".join(f"    {quoted(word_of(each) + ':' + zsh_escaped(each['text']))}\n" for each in program["commands"])
-    cases = "".join(f"        {word_of(each)}) {function_of(each)} ;;\n" for each in program["commands"])
+    described = [quoted(f"{each['word']}:{zsh_escaped(each['text'])}") for each in program["commands"]]
+    cases = "".join(f"        {each['word']}) {each['function']} ;;\n" for each in program["commands"])
+    newline = "\n    "
     return f"""{name}() {{
   local curcontext=$curcontext state line
   local -a commands
   commands=(
-{described}  )
-  _arguments -C{zsh_specifications(program)} \\
+    {newline.join(described)}
+  )
+  _arguments -C{zsh_arguments(program)} \\
     '1:command:->command' '*::argument:->rest'
   case $state in
     command) _describe -t commands command commands ;;
@@ -310,9 +292,9 @@ def zsh_dispatcher(name, program):
 def zsh_completion(programs):
     functions = cases = ""
     for program in programs:
-        name = function_of(program) + "_commands"  # _svdag is the function of this file
-        functions += "".join(zsh_function(function_of(each), each) for each in program["commands"])
-        functions += zsh_dispatcher(name, program) if program["commands"] else zsh_function(name, program)
+        name = program["function"] + "_commands"  # _svdag is the function of this file
+        functions += "".join(zsh_function(each["function"], each) for each in program["commands"])
+        functions += (zsh_dispatcher if program["commands"] else zsh_function)(name, program)
         cases += f"  {program['command']}) {name} \"$@\" ;;\n"
     names = " ".join(program["command"] for program in programs)
     return f"#compdef {names}\n# Completion for zsh.\n\n{functions}case $service in\n{cases}esac\n"
@@ -352,34 +334,29 @@ def fish_quoted(text):
 def fish_value(option):
     if option["choices"]:
         return " -x -a " + fish_quoted(" ".join(option["choices"]))
-    if option["endings"] == ["/"]:
-        return " -x -a '(__fish_complete_directories (@_value))'"
-    if option["endings"] == ["*"]:
-        return " -r -F"
-    return f" -x -k -a '(@_files {' '.join(option['endings'])})'" if option["endings"] else " -x"
+    known = {"": " -x", "/": " -x -a '(__fish_complete_directories (@_value))'", "*": " -r -F"}
+    endings = " ".join(option["endings"])
+    return known.get(endings, f" -x -k -a '(@_files {endings})'")
 
 
 def fish_lines(program, command, condition):
-    start = f"complete -c {program} -n '{condition}'"
+    start = f"complete -c {program['command']} -n '{condition}'"
     out = ""
     for option in command["options"]:
         names = "".join(f" -l {name[2:]}" if name.startswith("--") else f" -s {name[1:]}" for name in option["names"])
-        value = fish_value(option) if option["value"] else ""
-        out += f"{start}{names}{value} -d {fish_quoted(option['text'])}\n"
-    for operand in command["operands"]:
-        out += start + fish_value(operand).replace(" -x", "") + "\n"
-    return out
+        out += start + names + (fish_value(option) if option["value"] else "") + f" -d {fish_quoted(option['text'])}\n"
+    return out + "".join(start + fish_value(operand).replace(" -x", "") + "\n" for operand in command["operands"])
 
 
 def fish_completion(program):
     name = program["command"]
     first = "test (count (commandline -opc)) -eq 1" if program["commands"] else "true"
-    out = f"# Completion of {name} for fish.\n{FISH}\ncomplete -c {name} -f\n" + fish_lines(name, program, first)
+    out = f"# Completion of {name} for fish.\n{FISH}\ncomplete -c {name} -f\n" + fish_lines(program, program, first)
     for command in program["commands"]:
-        word = word_of(command)
+        word = command["word"]
         out += f"complete -c {name} -n '{first}' -a {word} -d {fish_quoted(command['text'])}\n"
-        out += fish_lines(name, command, f"@_is {word}")
-    return out.replace("@_", f"_{function_of(program)}_")
+        out += fish_lines(program, command, f"@_is {word}")
+    return out.replace("@_", f"_{program['function']}_")
 
 
 def write(path, text):
@@ -387,26 +364,10 @@ def write(path, text):
     path.write_text(text)
 
 
-def add(manual, programs):
-    """Adds a program, or replaces a command: the manual of `svdag export` is that of svdag-export, and svdag itself has
-    only its name and description."""
-    for program in programs:
-        for command in program["commands"]:
-            if command["command"] == manual["command"]:
-                command.update(manual, text=command["text"])
-                return
-    programs.append(manual)
-
-
 def main():
     folder, version, *files = sys.argv[1:]
     folder = pathlib.Path(folder)
-    programs, topics = [], []
-    for file in map(pathlib.Path, files):
-        if file.suffix == ".txt":
-            topics.append(file.read_text())
-        else:
-            add(json.loads(file.read_text()), programs)
+    programs, topics = read(files)
     write_man_pages(folder / "man", version, programs, topics)
     for program in programs:
         write(folder / "bash-completion/completions" / program["command"], bash_completion(program))
