@@ -90,18 +90,18 @@ $ python3 - <<'CHECK'
 $ svdag-scene atrium -q -o a.obj
 $ for layout in plain compact; do svdag build a.obj -o $layout.svdag -r 128 -q --layers material --layout $layout; done
 $ trace() { svdag-trace --preset inside --size 64x36 --samples 2 --rounds 1 "$@"; }
-$ layers() { trace --json "$@" | sed 's/.*"layers": //; s/}$//' | tr '{' '\n' | grep -v '"hit": 0'; }
+$ layers() { trace --json "$@" | sed 's/.*"layers"://; s/}$//' | tr '{' '\n' | grep -v '"hit":0'; }
 $ layers plain.svdag
 | [
-| "name": "blue cloth", "hit": 19}, 
-| "name": "floor", "hit": 166}, 
-| "name": "plaster", "hit": 838}, 
-| "name": "red cloth", "hit": 279}, 
-| "name": "stone", "hit": 1002}, 
+| "name":"blue cloth","hit":19},
+| "name":"floor","hit":166},
+| "name":"plaster","hit":838},
+| "name":"red cloth","hit":279},
+| "name":"stone","hit":1002},
 $ layers compact.svdag | md5sum | cut -c1-8
-| bbdb1144
+| 21e5edc8
 $ layers plain.svdag | md5sum | cut -c1-8
-| bbdb1144
+| 21e5edc8
 $ svdag convert plain.svdag -o cloth.svdag -q --layer "blue cloth"
 $ for file in "plain.svdag --layer" "compact.svdag --layer"; do trace $file "blue cloth" | grep -E "primary|results" | cut -c1-34; done
 | primary          2304          356

@@ -1,8 +1,11 @@
 // The program svdag-trace: only the tracer, on the processor or a GPU. Loads no third-party
 // library.
+#include <cinttypes>
 #include <cstdio>
 #include <optional>
 
+#include "io/units.h"
+#include "io/verdict.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
 #include "streaming/file/command_files.h"
@@ -65,54 +68,40 @@ uint64_t hits_of(const TraceResults& results, int kind) {
   return hits;
 }
 
-unsigned long long whole(uint64_t n) {
-  return n;
-}
-
-void print(const TraceResults& results) {
-  std::printf("%s\n%-8s %12s %12s %9s %9s\n", results.device.c_str(), "workload", "rays", "hit",
-              "seconds", "MRays/s");
+// Adds the figures of one device. `at` is where JSON has them: "", or "cuda/" in a comparison.
+void report(const TraceResults& results, const LayerTable& table, const std::string& at,
+            Verdict* verdict) {
+  const auto line = [&](const char* format, auto... values) {
+    char text[128];
+    std::snprintf(text, sizeof text, format, values...);
+    verdict->for_people("", text);
+  };
+  verdict->for_programs(at + "device", results.device);
+  verdict->for_people("", printable(results.device));
+  line("%-8s %12s %12s %9s %9s", "workload", "rays", "hit", "seconds", "MRays/s");
   for (int kind = 0; kind < kWorkloads; ++kind) {
+    const uint64_t rays = results.rays[kind], hits = hits_of(results, kind);
     const double seconds = results.seconds[kind];
-    std::printf("%-8s %12llu %12llu %9.4f %9.2f\n", kWorkloadNames[kind], whole(results.rays[kind]),
-                whole(hits_of(results, kind)), seconds,
-                seconds > 0 ? 1e-6 * double(results.rays[kind]) / seconds : 0.0);
+    line("%-8s %12" PRIu64 " %12" PRIu64 " %9.4f %9.2f", kWorkloadNames[kind], rays, hits, seconds,
+         seconds > 0 ? 1e-6 * double(rays) / seconds : 0.0);
+    const std::string work = at + "workloads/" + std::to_string(kind) + "/";
+    verdict->for_programs(work + "workload", kWorkloadNames[kind]);
+    verdict->for_programs(work + "rays", rays);
+    verdict->for_programs(work + "hit", hits);
+    verdict->for_programs(work + "seconds", seconds);
   }
-  std::printf("results  %016llx\n", whole(hash_of(results)));
-}
-
-// The name of a device as a JSON string; it comes from a driver or from the kernel.
-std::string quoted(const std::string& name) {
-  std::string text = "\"";
-  for (const char c : printable(name)) {
-    if (c == '"' || c == '\\') text += '\\';
-    text += c;
-  }
-  return text + '"';
-}
-
-void print_layers_json(const TraceResults& results, const LayerTable& table) {
+  char hash[17];
+  std::snprintf(hash, sizeof hash, "%016" PRIx64, hash_of(results));
+  verdict->for_programs(at + "results", hash);
+  line("results  %s", hash);
   std::vector<uint64_t> hits(table.layers.size());
-  for (const uint32_t layer : results.layers) {
+  for (const uint32_t layer : results.layers)
     if (layer != kNoLayer) ++hits[layer];
+  for (size_t i = 0; i < hits.size(); ++i) {
+    const std::string layer = at + "layers/" + std::to_string(i) + "/";
+    verdict->for_programs(layer + "name", table.layers[i].name);
+    verdict->for_programs(layer + "hit", hits[i]);
   }
-  std::printf(", \"layers\": [");
-  for (size_t i = 0; i < hits.size(); ++i)
-    std::printf("%s{\"name\": %s, \"hit\": %llu}", i == 0 ? "" : ", ",
-                quoted(table.layers[i].name).c_str(), whole(hits[i]));
-  std::printf("]");
-}
-
-void print_json(const TraceResults& results, const LayerTable& table) {
-  std::printf("{\"device\": %s, \"results\": \"%016llx\", \"workloads\": [",
-              quoted(results.device).c_str(), whole(hash_of(results)));
-  for (int kind = 0; kind < kWorkloads; ++kind)
-    std::printf("%s{\"workload\": \"%s\", \"rays\": %llu, \"hit\": %llu, \"seconds\": %.6f}",
-                kind == 0 ? "" : ", ", kWorkloadNames[kind], whole(results.rays[kind]),
-                whole(hits_of(results, kind)), results.seconds[kind]);
-  std::printf("]");
-  if (!table.empty()) print_layers_json(results, table);
-  std::printf("}");
 }
 
 // An optional output file, opened before the work, so that no work is lost if it cannot be written.
@@ -164,37 +153,23 @@ std::string picture_of(const TraceResults& results, const Workload& work, const 
   return bytes;
 }
 
-struct Comparison {
-  size_t different = 0;  // pixels
-  size_t first = 0;      // of these
-};
-
-Comparison compare(const TraceResults& cpu, const TraceResults& gpu) {
-  Comparison found;
+// Adds the comparison, and returns the number of pixels that differ.
+size_t report_differences(const TraceResults& cpu, const TraceResults& gpu, Verdict* verdict) {
+  size_t different = 0, first = 0;
   for (size_t pixel = cpu.hits.size(); pixel-- > 0;) {
     if (same(record_of(cpu, pixel), record_of(gpu, pixel))) continue;
-    ++found.different;
-    found.first = pixel;
+    ++different;
+    first = pixel;
   }
-  return found;
-}
-
-void print_comparison(const TraceResults& cpu, const TraceResults& gpu, const Comparison& found) {
-  print(cpu);
-  print(gpu);
-  if (found.different != 0)
-    std::printf("first differing pixel: %zu, t %.17g and %.17g\n", found.first,
-                cpu.hits[found.first].t, gpu.hits[found.first].t);
-  std::printf("%zu of %zu pixels differ\n", found.different, cpu.hits.size());
-}
-
-void print_comparison_json(const TraceResults& cpu, const TraceResults& gpu,
-                           const Comparison& found, const LayerTable& table) {
-  std::printf("{\"cpu\": ");
-  print_json(cpu, table);
-  std::printf(", \"cuda\": ");
-  print_json(gpu, table);
-  std::printf(", \"pixels\": %zu, \"different\": %zu}\n", cpu.hits.size(), found.different);
+  if (different != 0)
+    verdict->for_people("", "first differing pixel: " + std::to_string(first) + ", t " +
+                                format_double(cpu.hits[first].t) + " and " +
+                                format_double(gpu.hits[first].t));
+  verdict->for_people(
+      "", std::to_string(different) + " of " + std::to_string(cpu.hits.size()) + " pixels differ");
+  verdict->for_programs("pixels", cpu.hits.size());
+  verdict->for_programs("different", different);
+  return different;
 }
 
 // Rejects outputs that are the input or each other, under any name.
@@ -230,32 +205,19 @@ int run(const TraceOptions& options) {
   if (!options.layers.empty()) show_layer(&file, layers_named(file.layers, options.layers)[0]);
   const Workload work = make_workload(options, file);
   Output dump(options.dump), picture(options.picture);
-  int exit_code = 0;
-  TraceResults results;
-  if (options.compare) {
-    const TraceResults gpu = trace_on_cuda(file, work);
-    results = trace_on_cpu(file, work);
-    const Comparison found = compare(results, gpu);
-    if (options.json) {
-      print_comparison_json(results, gpu, found, file.layers);
-    } else {
-      print_comparison(results, gpu, found);
-    }
-    if (found.different != 0) exit_code = int(ExitCode::kDiffers);
-  } else {
-    results = options.device == "cuda" ? trace_on_cuda(file, work) : trace_on_cpu(file, work);
-    if (options.json) {
-      print_json(results, file.layers);
-      std::printf("\n");
-    } else {
-      print(results);
-    }
-  }
+  Verdict verdict;
+  const bool on_cpu = options.compare || options.device != "cuda";
+  const TraceResults gpu = options.compare ? trace_on_cuda(file, work) : TraceResults();
+  const TraceResults results = on_cpu ? trace_on_cpu(file, work) : trace_on_cuda(file, work);
+  report(results, file.layers, options.compare ? "cpu/" : "", &verdict);
+  if (options.compare) report(gpu, file.layers, "cuda/", &verdict);
+  const bool differs = options.compare && report_differences(results, gpu, &verdict) != 0;
+  std::printf("%s", (options.json ? verdict.json() + "\n" : verdict.text()).c_str());
   dump.write([&] { return dump_of(results); });
   picture.write([&] { return picture_of(results, work, file.layers); });
   dump.commit();
   picture.commit();
-  return exit_code;
+  return int(differs ? ExitCode::kDiffers : ExitCode::kOk);
 }
 
 }  // namespace
