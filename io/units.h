@@ -36,4 +36,12 @@ std::string format_point(const Point& p);
 // The shortest decimal text that reads back as exactly `value`.
 std::string format_double(double value);
 
+// The range of values of a float grid that count as set (--iso=LOW,HIGH).
+struct ValueRange {
+  double low, high;
+};
+
+// Parses "LOW,HIGH", which may be -inf and inf; anything else is an Error (kUsage).
+ValueRange parse_iso(const std::string& text);
+
 }  // namespace svdag

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "io/json_text.h"
+#include "io/json.h"
 #include "io/units.h"
 #include "streaming/printable.h"
 

@@ -12,10 +12,10 @@
 #include <optional>
 
 #include "builder/commands/batch_record.h"
-#include "builder/commands/inputs.h"
+#include "builder/commands/command_scene.h"
 #include "builder/commands/options.h"
 #include "builder/run/bake_output.h"
-#include "io/json_text.h"
+#include "io/json.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
 #include "streaming/file/command_files.h"

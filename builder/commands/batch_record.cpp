@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "builder/run/content_hash.h"
-#include "io/json_text.h"
+#include "io/json.h"
 #include "streaming/error.h"
 #include "streaming/file/file.h"
 

@@ -5,11 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "builder/commands/command_scene.h"
 #include "builder/commands/commands.h"
-#include "builder/commands/inputs.h"
-#include "builder/commands/scene_notes.h"
 #include "builder/run/bake_output.h"
-#include "io/json_text.h"
+#include "io/json.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"

@@ -1,10 +1,12 @@
-// `svdag convert A.svdag -o B.svdag`: another layout, or a part of a file.
+// `svdag convert`: another layout, or a part of a file; `svdag pack` and `svdag unpack`.
 #include <cstdio>
 
 #include "builder/commands/commands.h"
 #include "builder/run/bake_output.h"
 #include "io/dag/graph/select.h"
 #include "io/dag/open_dag.h"
+#include "io/dag/pack/pack.h"
+#include "io/dag/pack/unpack.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
@@ -29,6 +31,37 @@ int run(const ConvertCommand& config) {
                 layout_name(config.selection.layout), format_bytes(header.file_bytes).c_str(),
                 100 * double(header.file_bytes) / double(before), printable(config.file).c_str(),
                 to_hex(header.content_hash).c_str());
+  return int(ExitCode::kOk);
+}
+
+int run(const PackCommand& config) {
+  const std::string& path = config.output_path;
+  CommandFiles({config.file}).write(path);
+  if (!path.ends_with(".pack")) fail_usage(path + ": the output must end in .pack");
+  AtomicFile::check(path, config.output.no_clobber);
+  MemoryBudget budget(memory_or_default(config.memory));
+  const DagFile plain = select(open_dag(config.file), config.selection, {&budget, folder_of(path)});
+  ParallelExecutor executor(threads_or_all(config.threads));
+  const uint64_t bytes = pack(plain, path, config.level, &budget, &executor);
+  if (!config.output.quiet)
+    std::printf("%s: %s, %.1f %% of the plain %s\n  content hash %s\n", printable(path).c_str(),
+                format_bytes(bytes).c_str(), 100 * double(bytes) / double(plain.bytes().size()),
+                format_bytes(plain.bytes().size()).c_str(),
+                to_hex(plain.header().content_hash).c_str());
+  return int(ExitCode::kOk);
+}
+
+int run(const UnpackCommand& config) {
+  const std::string& path = config.output_path;
+  CommandFiles({config.file}).write(path);
+  require_dag_name(path, false);
+  AtomicFile::check(path, config.output.no_clobber);
+  MemoryBudget budget(memory_or_default(config.memory));
+  ParallelExecutor executor(threads_or_all(config.threads));
+  const Header header = unpack_to(config.file, path, {&budget, folder_of(path)}, &executor);
+  if (!config.output.quiet)
+    std::printf("%s: %s\n  content hash %s\n", printable(path).c_str(),
+                format_bytes(header.file_bytes).c_str(), to_hex(header.content_hash).c_str());
   return int(ExitCode::kOk);
 }
 

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "io/dag/dag_view.h"
-#include "io/dag/layers/palette.h"
+#include "io/dag/layers/layer_table.h"
 #include "streaming/error.h"
 
 namespace svdag {

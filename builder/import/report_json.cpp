@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "builder/import/import.h"
-#include "io/json_text.h"
+#include "io/json.h"
 #include "io/units.h"
 
 namespace svdag {

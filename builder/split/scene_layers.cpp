@@ -1,6 +1,6 @@
 #include "builder/split/scene_layers.h"
 
-#include "io/dag/layers/palette.h"
+#include "io/dag/layers/layer_table.h"
 #include "streaming/error.h"
 
 namespace svdag {

@@ -20,7 +20,7 @@
 #include <string>
 
 #include "io/dag/voxel_cube.h"
-#include "io/formats/value_range.h"
+#include "io/units.h"
 
 namespace svdag {
 

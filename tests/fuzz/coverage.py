@@ -34,7 +34,7 @@ READERS = {
     "command_line": [f"builder/commands/{kind}_options.cpp" for kind in ("build", "farm", "info", "shared")],
     "batch": ["builder/commands/batch.cpp"],
     "trace_options": ["verify/trace/program/trace_options.cpp"],
-    "words": ["io/units.cpp", "io/suggest.cpp", "io/formats/value_range.cpp"],
+    "words": ["io/units.cpp", "io/suggest.cpp"],
     "hashdag": ["io/formats/dags/hashdag.cpp"],
     "symvox": ["io/formats/dags/symvox.cpp", "io/dag/symvox_header.cpp"],
     "transform_dag": ["io/formats/dags/transform_dag.cpp"],

@@ -4,7 +4,6 @@
 #include <cctype>
 #include <cstdlib>
 
-#include "io/formats/value_range.h"
 #include "io/suggest.h"
 #include "io/units.h"
 #include "tests/fuzz/file_fuzz.h"

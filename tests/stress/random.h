@@ -1,5 +1,5 @@
 // The random numbers of the stress suite: the same on every machine and with every standard library
-// (the distributions of <random> are not). Separate from verify/sample/random.h, which draws
+// (the distributions of <random> are not). Separate from verify/sample/scene_draw.h, which draws
 // samples from a user's seed, so that either can change without the other.
 #pragma once
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "io/dag/graph/selection.h"
-#include "io/formats/value_range.h"
 #include "io/scene/scene.h"
+#include "io/units.h"
 #include "verify/commands/common.h"
 #include "verify/trace/view_options.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "verify/judge/touched_cells.h"
+#include "verify/judge/judge_cells.h"
 
 namespace svdag {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <variant>
 
-#include "verify/judge/touched_cells.h"
+#include "verify/judge/judge_cells.h"
 
 namespace svdag {
 namespace {

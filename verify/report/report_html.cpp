@@ -6,7 +6,7 @@
 #include <span>
 
 #include "io/dag/occupied_bounds.h"
-#include "io/json_number.h"
+#include "io/json.h"
 #include "io/units.h"
 #include "io/verdict.h"
 #include "streaming/error.h"
@@ -181,8 +181,7 @@ class Page {
       box("note", "The scene's positions are quantised in steps of " +
                       formatted("%.3g", number("quantisation_voxels")) + " voxels.");
     if (bake_.at("resumed").get<bool>())
-      box("note",
-          "The bake was resumed: times, memory and skipped work are of its last process.");
+      box("note", "The bake was resumed: times, memory and skipped work are of its last process.");
   }
 
   void show(const std::vector<ReportPicture>& pictures) {
@@ -244,8 +243,7 @@ class Page {
         formatted("%.3g voxel", file_.header().largest_snap) + ", to a lattice of 2<sup>" +
             std::to_string(file_.header().fraction) + "</sup> steps per voxel");
     row("decisions at voxels", format_count(count("decisions")));
-    row("decided in integers, because doubles could not",
-        percent(number("decisions_exact_share")));
+    row("decided in integers, because doubles could not", percent(number("decisions_exact_share")));
     row("triangles of zero area, baked as segments or points",
         format_count(count("triangles_degenerate")));
     if (number("quantisation_voxels") > 0)

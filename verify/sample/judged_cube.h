@@ -11,8 +11,8 @@
 #include "io/brick.h"
 #include "io/dag/dag_view.h"
 #include "io/grid.h"
-#include "verify/judge/cell_code.h"
 #include "verify/judge/clip_judge.h"
+#include "verify/judge/judge_cells.h"
 
 namespace svdag {
 

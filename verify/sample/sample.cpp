@@ -5,7 +5,7 @@
 #include <bit>
 #include <optional>
 
-#include "verify/judge/touched_cells.h"
+#include "verify/judge/judge_cells.h"
 #include "verify/sample/solid.h"
 
 namespace svdag {

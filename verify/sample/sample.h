@@ -16,8 +16,8 @@
 
 #include "io/brick.h"
 #include "io/dag/dag_view.h"
-#include "verify/judge/cell_code.h"
 #include "verify/judge/judge.h"
+#include "verify/judge/judge_cells.h"
 #include "verify/sample/compare.h"
 #include "verify/sample/scene_draw.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "io/brick.h"
-#include "verify/judge/cell_code.h"
+#include "verify/judge/judge_cells.h"
 #include "verify/sample/window_triangles.h"
 
 namespace svdag {

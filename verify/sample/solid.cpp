@@ -4,7 +4,7 @@
 #include <atomic>
 #include <tuple>
 
-#include "verify/judge/touched_cells.h"
+#include "verify/judge/judge_cells.h"
 
 namespace svdag {
 namespace {

@@ -25,7 +25,7 @@ class SolidColumns {
 
   // Sets the inside voxels of the selection in the cube at `corner` of `side` voxels.
   void fill(const LatticePoint& corner, int64_t side, JudgedCube* cube) const;
-  // Codes (verify/judge/cell_code.h) of all cubes with inside voxels, sorted.
+  // Codes (verify/judge/judge_cells.h) of all cubes with inside voxels, sorted.
   std::vector<uint64_t> cubes() const;
 
  private:

@@ -11,7 +11,7 @@
 #include "io/dag/open_dag.h"
 #include "io/formats/dags/hashdag.h"
 #include "io/formats/dags/octree.h"
-#include "io/json_text.h"
+#include "io/json.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"

@@ -1,7 +1,7 @@
 #include <cstdio>
 
+#include "builder/commands/command_scene.h"
 #include "builder/commands/commands.h"
-#include "builder/commands/scene_notes.h"
 #include "builder/farm/plan/plan_folder.h"
 #include "builder/farm/planner/print_plan.h"
 #include "streaming/error.h"

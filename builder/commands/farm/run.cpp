@@ -1,8 +1,11 @@
+// `svdag run` and `svdag submit`: the jobs of a plan, on this machine or on a farm.
 #include <cstdio>
 
+#include "builder/commands/command_scene.h"
 #include "builder/commands/commands.h"
 #include "builder/farm/engines/run_local.h"
 #include "builder/farm/plan/plan_folder.h"
+#include "streaming/error.h"
 #include "streaming/printable.h"
 #include "streaming/process/interrupt.h"
 #include "streaming/process/shell.h"
@@ -30,6 +33,19 @@ int run(const RunCommand& config) {
   }
   if (!config.output.quiet)
     std::printf("%s\n", printable(plan.path(plan.steps.back().output)).c_str());
+  return int(ExitCode::kOk);
+}
+
+int run(const SubmitCommand& command) {
+  const Plan plan = load_plan(command.plan, false);
+  CommandFiles files;
+  read_plan(plan, nullptr, &files);
+  if (!command.config.template_path.empty()) files.write(command.config.template_path);
+  try {
+    command.engine->submit(plan, command.config);
+  } catch (const Interrupted& interrupted) {  // the engine has reported what goes on without it
+    return 128 + interrupted.signal;
+  }
   return int(ExitCode::kOk);
 }
 

@@ -2,8 +2,8 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "builder/commands/command_scene.h"
 #include "builder/commands/commands.h"
-#include "builder/commands/inputs.h"
 #include "builder/farm/engines/run_step.h"
 #include "builder/farm/plan/step_name.h"
 #include "builder/run/bake_output.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "builder/import/import.h"
-#include "io/formats/value_range.h"
+#include "io/units.h"
 
 namespace svdag {
 

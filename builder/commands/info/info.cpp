@@ -13,7 +13,7 @@
 #include "io/dag/open_dag.h"
 #include "io/dag/pack/pack_format.h"
 #include "io/dag/symvox_header.h"
-#include "io/json_text.h"
+#include "io/json.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/checksum.h"

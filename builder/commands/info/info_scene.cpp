@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "builder/commands/command_scene.h"
 #include "builder/commands/commands.h"
-#include "builder/commands/scene_notes.h"
 #include "builder/split/open_edges.h"
-#include "io/json_text.h"
+#include "io/json.h"
 #include "io/lattice.h"
 #include "io/scene/boundary_chain.h"
 #include "io/scene/mesh_stats.h"

@@ -8,7 +8,7 @@
 #include "builder/farm/plan/plan_index.h"
 #include "builder/farm/plan/step_name.h"
 #include "io/dag/grid_fields.h"
-#include "io/json_number.h"
+#include "io/json.h"
 #include "streaming/counts.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
@@ -262,7 +262,7 @@ Plan load_plan(const std::string& folder, bool with_bins) {
     fail_input(path, std::string("is damaged: ") + error.what());
   } catch (const Error& error) {
     if (!error.path().empty()) throw;
-    fail_input(path, error.what());  // from io/json_number.h
+    fail_input(path, error.what());  // from io/json.h
   }
   if (with_bins) load_index(index_hash, &plan);
   return plan;

@@ -3,8 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "builder/run/content_hash.h"
-#include "io/json_number.h"
-#include "io/json_text.h"
+#include "io/json.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
 
@@ -65,7 +64,8 @@ OutputState output_state(const Plan& plan, const PlanStep& step, const std::stri
   const std::optional<Receipt> receipt = read_receipt(plan, step);
   if (!receipt) return OutputState::kInvalid;
   try {
-    return content_hash_of(path, thorough) == receipt->content_hash ? OutputState::kValid : OutputState::kInvalid;
+    return content_hash_of(path, thorough) == receipt->content_hash ? OutputState::kValid
+                                                                    : OutputState::kInvalid;
   } catch (const Error& error) {
     if (error.code() != ExitCode::kBadInput) throw;
     return OutputState::kInvalid;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "io/dag/compact/compact_writer.h"
-#include "io/dag/graph/box_graph.h"
 #include "io/dag/graph/combined_graph.h"
 #include "io/dag/graph/dag_graph.h"
 #include "io/dag/graph/reduce.h"

@@ -57,4 +57,7 @@ std::optional<std::vector<Layer>> decode_entries(uint32_t count, std::span<const
 // voxels.
 std::optional<LayerTable> decode_layers(const Header& header, std::span<const std::byte> bytes);
 
+// The colour of a layer whose source has none: one of 48 hues in 3 tones, chosen by the name.
+Colour palette_colour(std::string_view name);
+
 }  // namespace svdag

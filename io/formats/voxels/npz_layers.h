@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-#include "io/dag/layers/palette.h"
+#include "io/dag/layers/layer_table.h"
 #include "io/formats/label_numbers.h"
 #include "io/formats/voxels/npy_array.h"
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "io/dag/layers/palette.h"
+#include "io/dag/layers/layer_table.h"
 #include "tests/expect_error.h"
 
 namespace svdag {

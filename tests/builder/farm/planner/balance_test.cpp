@@ -7,7 +7,6 @@
 
 #include <algorithm>
 
-#include "builder/farm/plan/merge_tree.h"
 #include "tests/any_of.h"
 
 namespace svdag {

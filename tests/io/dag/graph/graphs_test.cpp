@@ -2,8 +2,8 @@
 
 #include <random>
 
-#include "io/dag/graph/box_graph.h"
 #include "io/dag/graph/combined_graph.h"
+#include "io/dag/graph/dag_graph.h"
 #include "streaming/error.h"
 
 namespace svdag {

@@ -1,5 +1,5 @@
 // Tests that the touched cells are exactly those whose closed cube meets the closed box.
-#include "verify/judge/touched_cells.h"
+#include "verify/judge/judge_cells.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,10 @@
-#include "builder/commands/scene_notes.h"
+#include "builder/commands/command_scene.h"
 
 #include <cstdio>
 
+#include "builder/farm/plan/plan_folder.h"
 #include "io/units.h"
+#include "streaming/memory/memory_budget.h"
 #include "streaming/printable.h"
 
 namespace svdag {
@@ -27,6 +29,18 @@ std::map<std::string, uint64_t> left_out_json(const LeftOut& left_out) {
     if (count > 0) counts[name] = count;
   });
   return counts;
+}
+
+void read_buffers(const SceneConfig& scene, uint64_t memory, CommandFiles* files) {
+  MemoryBudget budget(memory_or_default(memory));
+  Scene(scene, &budget).visit_files([&](const File& file) { files->read(file.path()); });
+}
+
+void read_plan(const Plan& plan, const PlanStep* own, CommandFiles* files) {
+  for (const std::string& file : files_of(plan)) {
+    if (own == nullptr || file != plan.path(own->output)) files->read(file);
+  }
+  for (const PlanInput& input : plan.inputs) files->read(input.path);
 }
 
 }  // namespace svdag

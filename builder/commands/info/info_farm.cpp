@@ -1,11 +1,16 @@
+// `svdag info` of the files of a farm: runs and plans.
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "builder/commands/commands.h"
+#include "builder/farm/plan/plan_folder.h"
+#include "builder/farm/plan/receipt.h"
+#include "builder/farm/planner/print_plan.h"
 #include "builder/run/run_check.h"
 #include "builder/workspace/memory_shares.h"
-#include "io/json_text.h"
+#include "io/json.h"
 #include "io/units.h"
+#include "streaming/error.h"
 #include "streaming/printable.h"
 
 namespace svdag {
@@ -75,6 +80,19 @@ void info_run(const InfoCommand& config) {
   const RunFile run = RunFile::open(config.scene.paths.front(), &budget);
   check_run(run, MemoryShares(budget.limit()).check_bitmap, &budget);
   config.json ? print_json(run) : print_text(run);
+}
+
+void info_plan(const InfoCommand& config) {
+  const Plan plan = load_plan(config.scene.paths.front(), true);
+  if (config.json) fail_usage("--json: " + plan.path("plan.json") + " is the plan as JSON");
+  print_plan(plan, config.levels);
+  size_t done = 0;
+  for (const PlanStep& step : plan.steps)
+    done += output_state(plan, step, plan.path(step.output), false) == OutputState::kValid;
+  for (const PlanInput& input : plan.inputs)
+    std::printf("  input %s, %s, content %s\n", printable(input.path).c_str(),
+                format_bytes(input.bytes).c_str(), input.hash.c_str());
+  std::printf("  %zu of %zu steps are done\n", done, plan.steps.size());
 }
 
 }  // namespace svdag

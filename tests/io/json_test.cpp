@@ -1,5 +1,5 @@
 // Tests that an integer in JSON is read exactly or is an Error.
-#include "io/json_number.h"
+#include "io/json.h"
 
 #include <gtest/gtest.h>
 
