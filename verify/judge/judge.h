@@ -5,7 +5,7 @@
 //   cgal      tests one cell after the other with CGAL's exact kernel (judge_cgal.h)
 //
 // They share neither arithmetic nor method, except for the box of cells that they test
-// (touched_cells.h), so each detects errors of the other. Both judge every rule
+// (judge_cells.h), so each detects errors of the other. Both judge every rule
 // (docs/accuracy.md); for the solid rules they judge which voxels are touched, and how a triangle
 // changes winding numbers, which decide about the others (verify/sample/solid.h). A judge reuses
 // scratch memory: one per thread.
