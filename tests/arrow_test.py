@@ -31,7 +31,7 @@ ALLOWED = {
     "streaming/spill": ["streaming", "streaming/file", "streaming/memory"],
     "streaming/sort": ["streaming", "streaming/memory", "streaming/process", "streaming/spill"],
     "io": ["streaming"],
-    "io/help": STREAMING + ["io", *DAG],
+    "io/help": STREAMING + ["io", *DAG, "io/scene"],
     "io/scene/mesh": STREAMING + ["io"],
     "io/scene/polygons": STREAMING + ["io", "io/scene/mesh"],
     "io/scene/decoders": STREAMING + ["io"],
@@ -123,7 +123,7 @@ EXACT = {
 }
 
 LIBRARIES = {
-    r"CLI/": r"(builder/commands(/export|/farm|/import|/info)?|verify/commands|verify/trace(/program)?)/(main|\w+_options)\.cpp|io/help/command_line\.cpp|tests/(scenes/main|fuzz/\w+)\.cpp",
+    r"CLI/": r"(builder/commands(/export|/farm|/import|/info)?|verify/commands|verify/trace(/program)?)/(main|\w+_options)\.cpp|io/help/(command_line|scene_options)\.cpp|tests/(scenes/main|fuzz/\w+)\.cpp",
     r"OpenMesh/": r"io/scene/readers/openmesh\.cpp|tests/io/scene/readers/openmesh_test\.cpp",
     r"assimp/": r"io/scene/readers/assimp\.cpp",
     r"ufbx": r"io/scene/readers/fbx\.cpp",

@@ -9,6 +9,8 @@ namespace svdag {
 namespace {
 
 Grid place_grid(const BuildConfig& config, const Scene& scene, SceneExtent* extent) {
+  if (config.open_as_sheets && config.layers == LayerKind::kFrame)
+    fail_usage("--open surface: every frame has to be closed: give --rule conservative or thin");
   if (config.cube && config.voxel_size != 0)
     fail_usage("--cube: the cube is divided by --resolution: give -r instead of -s");
   if (config.origin && config.voxel_size == 0)

@@ -117,6 +117,7 @@ void add_build_options(CLI::App* app, BakeOptions* options) {
               {".svdag", ".run"})
       ->required()
       ->type_name("OUT");
+  add_frames(app, build);
   CLI::Option_group* const grid = add_bake_options(app, &options->bake);
   // The defaults of a batch may have a grid.
   if (build->levels != 0 || build->voxel_size != 0) grid->require_option(0, 1);

@@ -44,6 +44,8 @@ void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std:
                           const char* threads_text = "Threads (default: all processors)");
 // Adds --checkpoint.
 CLI::Option* add_checkpoint(CLI::App* app, double* seconds);
+// Adds --frames; before the grid and layer options.
+void add_frames(CLI::App* app, BuildConfig* build);
 // Adds --layers and --no-union.
 void add_layer_options(CLI::App* app, BuildConfig* build);
 // Adds the grid options of a bake; exactly one option of the returned group is required.

@@ -7,6 +7,7 @@
 #include "builder/commands/options.h"
 #include "io/dag/grid_fields.h"
 #include "io/help/command_line.h"
+#include "io/help/scene_options.h"
 #include "io/units.h"
 #include "streaming/counts.h"
 #include "streaming/error.h"
@@ -35,11 +36,6 @@ bool parse_open(const std::string& name, Rule rule) {
   return name == "surface";
 }
 
-double checked_time(double seconds) {
-  if (!std::isfinite(seconds)) fail_usage("--time: give a number of seconds");
-  return seconds;
-}
-
 double checked_scale(double scale) {
   if (!std::isnormal(scale)) fail_usage("--scale: give a factor other than 0");
   return scale;
@@ -65,30 +61,9 @@ void add_progress(CLI::App* app, OutputConfig* output) {
 }
 
 void add_scene_options(CLI::App* app, SceneConfig* scene) {
-  app->add_option("--include", scene->names.include,
-                  "Only parts whose object, material or file name matches a pattern (*, ?, [..]; "
-                  "material:PATTERN for one kind); may be repeated")
-      ->allow_extra_args(false)
-      ->type_name("PATTERN");
-  app->add_option("--exclude", scene->names.exclude,
-                  "Skip parts whose name matches a pattern; may be repeated")
-      ->allow_extra_args(false)
-      ->type_name("PATTERN");
-  app->add_flag("--allow-empty", scene->allow_unmatched, "Accept a pattern that matches no name");
+  add_scene_choice(app, scene);
   app->add_flag("--allow-outside", scene->allow_outside,
                 "Read .mtl files and textures outside the folder of an .obj file, too");
-  app->add_option_function<double>(
-         "--time", [scene](double s) { pose_time(scene)->seconds = checked_time(s); },
-         "Pose a glTF scene as its animations do at this time; without it, the pose at rest")
-      ->type_name("SECONDS");
-  app->add_option_function<std::string>(
-         "--animation", [scene](const std::string& name) { pose_time(scene)->animation = name; },
-         "The animation for --time: its name, #NUMBER from 0, or all")
-      ->needs("--time")
-      ->type_name("NAME");
-  app->add_flag("--hidden", scene->hidden, "Bake nodes that the file hides, too");
-  app->add_flag("--skip-invalid", scene->skip_invalid,
-                "Drop triangles with NaN or infinite coordinates");
   app->add_flag(
       "--sandbox", scene->sandbox,
       "Run Assimp, ufbx, Draco, meshoptimizer, OpenMesh and stb_image in a process that can only "
@@ -131,11 +106,21 @@ CLI::Option* add_checkpoint(CLI::App* app, double* seconds) {
       ->type_name("SECONDS");
 }
 
+void add_frames(CLI::App* app, BuildConfig* build) {
+  add_frames(app, &build->scene, [build] {
+    build->layers = LayerKind::kFrame;
+    build->with_union = build->scene.colours = false;
+    build->scene.time.reset();
+  });
+}
+
 void add_layer_options(CLI::App* app, BuildConfig* build) {
   const auto read = [build](const std::string& name) {
     const auto known = std::ranges::find(kLayerKindNames, name);
-    if (known == std::end(kLayerKindNames) || name == kLayerKindNames[0])
+    if (known == std::end(kLayerKindNames) || name == layer_kind_name(LayerKind::kNone) ||
+        name == layer_kind_name(LayerKind::kFrame))
       fail_usage("--layers: unknown kind \"" + name + "\": choose material, object or file");
+    if (!build->scene.frames.empty()) fail_usage("--layers: the layers of --frames are its times");
     build->layers = LayerKind(known - kLayerKindNames);
     build->scene.colours = build->layers == LayerKind::kMaterial;
   };
@@ -146,8 +131,7 @@ void add_layer_options(CLI::App* app, BuildConfig* build) {
           {"material", "object", "file"})
           ->type_name("KIND");
   CLI::Option* no_union = app->add_flag_callback(
-      "--no-union", [build] { build->with_union = false; },
-      "Keep the layers alone: for layers that are frames of an animation");
+      "--no-union", [build] { build->with_union = false; }, "Keep only the layers");
   if (build->layers == LayerKind::kNone) no_union->needs(layers);
 }
 

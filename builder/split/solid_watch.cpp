@@ -28,15 +28,17 @@ BoundaryChain boundary_chain(const Scene& scene, const Grid& grid) {
   return chain;
 }
 
-void require_closed(const Scene& scene, const Grid& grid, Rule rule, const EdgeSum& edges) {
+void require_closed(const Scene& scene, const Grid& grid, Rule rule, const EdgeSum& edges,
+                    bool are_frames) {
   if (is_closed(edges, rule) || is_closed(boundary_chain(scene, grid), rule)) return;
   const OpenEdges open = find_open_edges(scene, grid);
-  throw Error(ExitCode::kBadInput,
-              open.closed_mod_2
-                  ? "the triangles of the scene are not oriented alike at " + describe(open) +
-                        ": give --inside odd"
-                  : "the scene is not closed: " + describe(open) +
-                        ": repair it, or bake its open parts as surfaces with --open surface");
+  throw Error(
+      ExitCode::kBadInput,
+      open.closed_mod_2
+          ? "the triangles of the scene are not oriented alike at " + describe(open) +
+                ": give --inside odd"
+          : "the scene is not closed: " + describe(open) + ": repair it" +
+                (are_frames ? "" : ", or bake its open parts as surfaces with --open surface"));
 }
 
 }  // namespace
@@ -46,6 +48,7 @@ SolidWatch::SolidWatch(const Scene& scene, const Grid& grid, const ContentOption
     : scene_(scene),
       grid_(grid),
       rule_(options.rule),
+      are_frames_(options.layers == LayerKind::kFrame),
       windings_(std::make_shared<CellWindings>(grid.levels, Cube(),
                                                CellWindings::level_of_grid(grid.levels), budget)) {
   if (options.open_as_sheets) open_parts_ = OpenParts(scene, grid, rule_);
@@ -67,7 +70,12 @@ void SolidWatch::add(const LatticeTriangle& triangle) {
 
 std::shared_ptr<const CellWindings> SolidWatch::finish() {
   // With open parts, finding them has tested the others.
-  if (open_parts_.size() == 0) require_closed(scene_, grid_, rule_, edges_);
+  if (open_parts_.size() == 0) require_closed(scene_, grid_, rule_, edges_, are_frames_);
+  // Open edges of two frames may cancel each other.
+  if (are_frames_ && open_layers_.size() != 0)
+    throw Error(ExitCode::kBadInput, "the scene is not closed at " +
+                                         std::to_string(open_layers_.size()) +
+                                         " of its frames: repair it");
   windings_->finish();
   return std::move(windings_);
 }

@@ -33,6 +33,7 @@ class SolidWatch {
   const Scene& scene_;
   const Grid& grid_;
   Rule rule_;
+  bool are_frames_;  // the layers, each of which has to be closed
   std::shared_ptr<CellWindings> windings_;
   OpenParts open_parts_, open_layers_;
   EdgeSum edges_;  // of the closed parts

@@ -28,9 +28,9 @@ constexpr const char* layout_name(Layout layout) {
 }
 
 // What a layer is in the scene.
-enum class LayerKind : uint32_t { kNone, kObject, kMaterial, kFile };
+enum class LayerKind : uint32_t { kNone, kObject, kMaterial, kFile, kFrame };
 
-constexpr const char* kLayerKindNames[] = {"none", "object", "material", "file"};
+constexpr const char* kLayerKindNames[] = {"none", "object", "material", "file", "frame"};
 constexpr uint32_t kMaxLayers = 65535;
 
 constexpr const char* layer_kind_name(LayerKind kind) {

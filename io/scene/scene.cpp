@@ -33,9 +33,14 @@ bool surely_finite(std::span<const Triangle> triangles) {
 // A filter between a reader and the user's sink that rejects triangles with NaN or infinity.
 class FiniteFilter {
  public:
-  FiniteFilter(const std::string& path, const SceneConfig& config, const TriangleSink& sink,
-               SceneCounts* counts)
-      : path_(path), name_(base_name(path)), config_(config), sink_(sink), counts_(counts) {}
+  FiniteFilter(const std::string& path, std::string_view frame, const SceneConfig& config,
+               const TriangleSink& sink, SceneCounts* counts)
+      : path_(path),
+        name_(base_name(path)),
+        frame_(frame),
+        config_(config),
+        sink_(sink),
+        counts_(counts) {}
 
   void operator()(const TriangleBatch& batch) {
     check_interrupt();
@@ -55,6 +60,7 @@ class FiniteFilter {
   void pass(const TriangleBatch& unnamed) {
     TriangleBatch batch = unnamed;
     batch.file = name_;
+    batch.frame = frame_;
     if (config_.only && part_name(batch, config_.only->first) != config_.only->second) return;
     counts_->triangles += batch.triangles.size();
     if (batch.undeformed) counts_->undeformed += batch.triangles.size();
@@ -70,6 +76,7 @@ class FiniteFilter {
 
   const std::string& path_;
   std::string name_;
+  std::string_view frame_;
   const SceneConfig& config_;
   const TriangleSink& sink_;
   SceneCounts* counts_;
@@ -143,12 +150,9 @@ SceneCounts Scene::stream(const TriangleSink& sink) const {
   return read(sink, nullptr);
 }
 
-SceneCounts Scene::read(const TriangleSink& sink, MeshBox* box_alone) const {
-  SceneCounts counts;
-  NameFilter names = config_.names;
-  NameFilter::Use use{
-      std::vector<bool>(names.include.size()), std::vector<bool>(names.exclude.size()), {}};
-  names.use = &use;
+LeftOut Scene::read_pose(const PoseTime* time, std::string_view frame, const NameFilter& names,
+                         const TriangleSink& sink, MeshBox* box_alone, SceneCounts* counts) const {
+  LeftOut left_out;
   const Affine to_world = config_.to_world();
   for (const std::string& path : config_.paths) {
     const std::string name = base_name(path);
@@ -156,7 +160,7 @@ SceneCounts Scene::read(const TriangleSink& sink, MeshBox* box_alone) const {
     if (names.excludes(PartKind::kFile, name)) continue;
     const File packed = File::open_read(path);
     const File& file = content_of(packed);
-    FiniteFilter filter(path, config_, sink, &counts);
+    FiniteFilter filter(path, frame, config_, sink, counts);
     const TriangleSink filtered = std::ref(filter);
     ReadOptions options{&names,
                         by_name,
@@ -167,21 +171,40 @@ SceneCounts Scene::read(const TriangleSink& sink, MeshBox* box_alone) const {
                         config_.colours ? &images_ : nullptr,
                         config_.allow_outside,
                         config_.hidden,
-                        config_.time ? &*config_.time : nullptr};
+                        time};
     double unit = 0;
     options.unit_metres = &unit;
-    if (config_.time && detect_format(file).read != read_gltf)
-      fail_usage(path + ": --time: svdag follows only animations of glTF");
+    if (time != nullptr && detect_format(file).read != read_gltf)
+      fail_usage(path + (frame.empty() ? ": --time" : ": --frames") +
+                 ": svdag follows only animations of glTF");
     if (config_.only) options.box_alone = nullptr;
     if (to_world == Affine()) {
-      counts.left_out += read_scene_file(detect_format(file), file, options, filtered);
+      left_out += read_scene_file(detect_format(file), file, options, filtered);
     } else {
       options.box_alone = nullptr;  // it would hold coordinates of the file, not of the world
-      counts.left_out +=
-          read_scene_file(detect_format(file), file, options, ToWorld(to_world, filtered));
+      left_out += read_scene_file(detect_format(file), file, options, ToWorld(to_world, filtered));
     }
-    if (unit != 0 && std::find(counts.units.begin(), counts.units.end(), unit) == counts.units.end())
-      counts.units.push_back(unit);
+    if (unit != 0 && std::ranges::find(counts->units, unit) == counts->units.end())
+      counts->units.push_back(unit);
+  }
+  return left_out;
+}
+
+SceneCounts Scene::read(const TriangleSink& sink, MeshBox* box_alone) const {
+  SceneCounts counts;
+  NameFilter names = config_.names;
+  NameFilter::Use use{
+      std::vector<bool>(names.include.size()), std::vector<bool>(names.exclude.size()), {}};
+  names.use = &use;
+  const auto read_at = [&](std::optional<double> seconds, std::string_view frame) {
+    const PoseTime time{seconds.value_or(0), config_.animation};
+    counts.left_out = read_pose(seconds ? &time : nullptr, frame, names, sink, box_alone, &counts);
+  };
+  if (config_.frames.empty()) read_at(config_.time, "");
+  const bool one = config_.only && config_.only->first == PartKind::kFrame;
+  for (uint32_t i = 0; i < config_.frames.count; ++i) {
+    const std::string frame = config_.frames.name(i);
+    if (!one || config_.only->second == frame) read_at(parse_time(frame), frame);
   }
   const bool allowed = config_.allow_unmatched;
   append_unmatched("--include", names.include, use.include, use, allowed, &counts.unmatched);
@@ -204,6 +227,21 @@ Box Scene::bounds(SceneCounts* counts) const {
   if (counts != nullptr) *counts = seen;
   if (box.empty()) fail_empty(seen);
   return box;
+}
+
+std::vector<Animation> Scene::animations() const {
+  std::vector<Animation> all;
+  for (const std::string& path : config_.paths) {
+    if (config_.names.excludes(PartKind::kFile, base_name(path))) continue;
+    const File packed = File::open_read(path);
+    const File& file = content_of(packed);
+    const SceneFormat& format = detect_format(file);
+    if (format.animations == nullptr) continue;
+    std::ranges::move(
+        format.animations(file, {.budget = budget_, .spill = spill_, .sandbox = config_.sandbox}),
+        std::back_inserter(all));
+  }
+  return all;
 }
 
 void Scene::fail_empty(const SceneCounts& counts) const {

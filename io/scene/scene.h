@@ -10,6 +10,7 @@
 #include "io/affine.h"
 #include "io/dag/format.h"
 #include "io/scene/decoders/image.h"
+#include "io/scene/frame_range.h"
 #include "io/scene/mesh/mesh_reader.h"
 #include "streaming/file/input_watch.h"
 
@@ -31,8 +32,10 @@ struct SceneConfig {
   Affine up = {};                  // --up: after `transform`
   double scale = 1;                // --scale: after `up`
   bool hidden = false;             // --hidden: nodes that the file hides
-  std::optional<PoseTime> time = {};  // --time, --animation
-  bool colours = false;               // of materials are read, and the files that hold them
+  std::optional<double> time = {};  // --time
+  FrameRange frames = {};           // --frames: the triangles at all these times; instead of time
+  std::string animation = "all";    // --animation, as in PoseTime
+  bool colours = false;             // of materials are read, and the files that hold them
   // For judges: if given, only the triangles of the part of this kind and name.
   std::optional<std::pair<PartKind, std::string>> only = {};
 
@@ -40,18 +43,12 @@ struct SceneConfig {
   Affine to_world() const { return compose(scaling(scale), compose(up, transform)); }
 };
 
-// The time of `scene`, which from now on is posed.
-inline PoseTime* pose_time(SceneConfig* scene) {
-  if (!scene->time) scene->time.emplace();
-  return &*scene->time;
-}
-
 struct SceneCounts {
   uint64_t triangles = 0;   // passed to the sink
   double quantisation = 0;  // largest step that positions were stored in, in world units
   uint64_t invalid = 0;     // dropped: a coordinate was NaN or infinite
   uint64_t undeformed = 0;  // as stored, though a skin or morph targets deform their mesh
-  LeftOut left_out;         // by the readers
+  LeftOut left_out;         // by the readers; of frames, by each
   std::vector<double> units;               // in metres, each once: those that files state
   std::vector<std::string> unmatched;      // "--include 'sky*'": with allow_unmatched
   std::vector<std::string> unread_images;  // "PATH: why": with colours
@@ -70,6 +67,9 @@ class Scene {
   // triangles is an Error (kBadInput).
   Box bounds(SceneCounts* counts = nullptr) const;
 
+  // The animations of all files, one file after the other.
+  std::vector<Animation> animations() const;
+
   // Error (kBadInput): the scene has no triangles; with the patterns that matched nothing, and the
   // files that hold only points.
   [[noreturn]] void fail_empty(const SceneCounts& counts) const;
@@ -84,6 +84,9 @@ class Scene {
 
  private:
   SceneCounts read(const TriangleSink& sink, MeshBox* box_alone) const;
+  // Reads the files once, posed at `time` unless it is null.
+  LeftOut read_pose(const PoseTime* time, std::string_view frame, const NameFilter& names,
+                    const TriangleSink& sink, MeshBox* box_alone, SceneCounts* counts) const;
   // The content of a scene file: `packed` itself or, if it is a gzip file, unpacked once.
   const File& content_of(const File& packed) const;
 

@@ -5,6 +5,7 @@
 #include <cctype>
 
 #include "io/scene/decoders/gzip.h"
+#include "io/scene/gltf/gltf_animation.h"
 #include "io/scene/gltf/gltf_buffers.h"
 #include "io/scene/gltf/gltf_images.h"
 #include "io/scene/gltf/tile.h"
@@ -51,8 +52,8 @@ void visit_mtl_files(const File& content, const BesideOptions& options, const Vi
 void visit_gltf_files(const File& content, const BesideOptions& options, const VisitFile& visit) {
   const Tile tile(content, options.budget);
   if (tile.beside() != nullptr) visit(*tile.beside());
-  const GltfDocument document = load_gltf(tile.gltf_file(), options.budget,
-                                          {.images = options.colours}, tile.gltf_bytes());
+  const GltfDocument document =
+      load_gltf(tile.gltf_file(), options.budget, {.images = options.colours}, tile.gltf_bytes());
   for (const File& buffer : GltfBuffers(document, options.budget).files()) visit(buffer);
   for (const File& image : image_files(document)) visit(image);
 }
@@ -86,10 +87,13 @@ constexpr SceneFormat kFormats[] = {
     {"STL", "stl", true, nullptr, "solid", read_stl},
     {"OBJ", "obj", true, nullptr, "", read_obj, "", visit_mtl_files},
     {"OFF", "off", true, nullptr, "OFF", read_off},
-    {"glTF", "gltf", true, nullptr, "", read_gltf, "", visit_gltf_files},
-    {"GLB", "glb", false, begins_as_glb, "", read_gltf, "", visit_gltf_files},
-    {"B3DM", "b3dm", false, begins_as_b3dm, "", read_gltf, "", visit_gltf_files},
-    {"I3DM", "i3dm", false, begins_as_i3dm, "", read_gltf, "", visit_gltf_files},
+    {"glTF", "gltf", true, nullptr, "", read_gltf, "", visit_gltf_files, nullptr, gltf_animations},
+    {"GLB", "glb", false, begins_as_glb, "", read_gltf, "", visit_gltf_files, nullptr,
+     gltf_animations},
+    {"B3DM", "b3dm", false, begins_as_b3dm, "", read_gltf, "", visit_gltf_files, nullptr,
+     gltf_animations},
+    {"I3DM", "i3dm", false, begins_as_i3dm, "", read_gltf, "", visit_gltf_files, nullptr,
+     gltf_animations},
     {"Draco", "drc", false, begins_as_draco, "", read_draco},
     {"OpenMesh", "om", false, nullptr, "", kReadOpenMesh},
     {"FBX", "fbx", false, begins_as_fbx, "", kReadFbx, kAsGlb},

@@ -34,6 +34,7 @@ struct SceneFormat {
   const char* alternative = "";  // for builds that lack it: ": what to do"
   VisitBeside visit_beside = nullptr;
   bool (*holds_only_points)(const File&) = nullptr;
+  std::vector<Animation> (*animations)(const File& content, const ReadOptions&) = nullptr;
 };
 
 // Detects the format by content, or by ending where content is ambiguous (.obj, .stl, .off). Of a

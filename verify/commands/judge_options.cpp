@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include "io/help/command_line.h"
+#include "io/help/scene_options.h"
 #include "io/units.h"
 #include "verify/commands/options.h"
 
@@ -22,6 +23,7 @@ void add_mesh(CLI::App* app, VerifyCommand* parsed) {
   CLI::App* command = app->add_subcommand(
       "mesh", "Voxelize the scene again, by other means, and compare every voxel");
   add_file(command, &config->file);
+  add_frames(command, &config->scene, [] {});
   add_scene(command, &config->scene);
   one_of(command->add_option(
              "--judge", config->judge,

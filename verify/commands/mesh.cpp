@@ -197,6 +197,10 @@ int run(const MeshConfig& config) {
   const Stopwatch stopwatch(config.common);
   if (config.sample) require_count("--sample", *config.sample);
   const DagFile file = open_dag(config.file);
+  if ((file.layers().kind == LayerKind::kFrame) == config.scene.frames.empty())
+    fail_usage(config.scene.frames.empty()
+                   ? file.path() + ": its layers are frames: give --frames"
+                   : "--frames: the layers of " + file.path() + " are not frames");
   if (config.judge == "openvdb") {
     if (is_solid(file.rule()))
       fail_usage("--judge openvdb: judges surfaces: choose integer or cgal for rule solid");

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include "io/help/command_line.h"
+#include "io/help/scene_options.h"
 #include "io/scene/scene_formats.h"
 #include "io/units.h"
 #include "streaming/counts.h"
@@ -46,33 +47,7 @@ void add_scene(CLI::App* command, SceneConfig* scene) {
   takes_files(command->add_option("SCENE", scene->paths, "The scene files it was baked from"),
               scene_endings())
       ->required();
-  command
-      ->add_option("--include", scene->names.include,
-                   "Only parts whose object, material or file name matches a pattern (*, ?, "
-                   "[..]; material:PATTERN for one kind); may be repeated")
-      ->allow_extra_args(false)
-      ->type_name("PATTERN");
-  command
-      ->add_option("--exclude", scene->names.exclude,
-                   "Skip parts whose name matches a pattern; may be repeated")
-      ->allow_extra_args(false)
-      ->type_name("PATTERN");
-  command->add_flag("--allow-empty", scene->allow_unmatched,
-                    "Accept a pattern that matches no name");
-  command
-      ->add_option_function<double>(
-          "--time", [scene](double s) { pose_time(scene)->seconds = s; },
-          "The time of animations that the bake was posed at")
-      ->type_name("SECONDS");
-  command
-      ->add_option_function<std::string>(
-          "--animation", [scene](const std::string& name) { pose_time(scene)->animation = name; },
-          "The animation of that time: its name, #NUMBER from 0, or all")
-      ->needs("--time")
-      ->type_name("NAME");
-  command->add_flag("--hidden", scene->hidden, "The bake has nodes that the file hides, too");
-  command->add_flag("--skip-invalid", scene->skip_invalid,
-                    "Drop triangles with NaN or infinity, as in the bake");
+  add_scene_choice(command, scene);
 }
 
 void add_count(CLI::App* command, const std::string& option, uint64_t* count, const char* text,

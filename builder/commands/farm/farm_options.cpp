@@ -56,6 +56,7 @@ void add_plan(CLI::App* program, Command* command) {
                           "Max number of runs that one merge reads (default: 16)"),
           2, 1000)
       ->type_name("N");
+  add_frames(app, &plan->build);
   add_grid_options(app, &plan->build);
   add_layer_options(app, &plan->build);
   add_resource_options(app, &plan->build.memory, &plan->step_threads, &plan->build.scratch,
@@ -108,8 +109,7 @@ void add_run(CLI::App* program, Command* command) {
     if (step->count() > 0)
       *command = *config;
     else
-      *command =
-          RunCommand{config->plan, config->threads, config->step.scratch, config->output};
+      *command = RunCommand{config->plan, config->threads, config->step.scratch, config->output};
   });
 }
 

@@ -108,7 +108,7 @@ Json bounds_json(const Box& box) {
 
 void print_json(const InfoCommand& config, const Box& box, const SceneCounts& counts,
                 const MeshStats& stats, const Closedness& closed,
-                const std::vector<MeshPart>& parts) {
+                const std::vector<Animation>& animations, const std::vector<MeshPart>& parts) {
   Json json = {{"scene", config.scene.paths},
                {"triangles", stats.triangles},
                {"invalid", counts.invalid},
@@ -125,12 +125,16 @@ void print_json(const InfoCommand& config, const Box& box, const SceneCounts& co
                {"components", stats.components},
                {"closed", nullptr},
                {"closed_without_orientation", nullptr},
-               {"volume", nullptr}};
+               {"volume", nullptr},
+               {"animations", Json::array()}};
   if (closed.is_known) {
     json["closed"] = closed.is_closed();
     json["closed_without_orientation"] = closed.is_closed() || closed.open.closed_mod_2;
     if (closed.is_closed()) json["volume"] = closed.volume;
   }
+  for (const auto& [name, seconds, nodes, weights] : animations)
+    json["animations"].push_back(
+        {{"name", name}, {"seconds", seconds}, {"nodes", nodes}, {"weights", weights}});
   for (const MeshPart& part : parts)
     json["parts"].push_back({{"kind", name_of(part.kind)},
                              {"name", part.name},
@@ -152,7 +156,7 @@ void print_closedness(const Closedness& closed) {
 
 void print_text(const InfoCommand& config, const Box& box, const SceneCounts& counts,
                 const MeshStats& stats, const Closedness& closed,
-                const std::vector<MeshPart>& parts) {
+                const std::vector<Animation>& animations, const std::vector<MeshPart>& parts) {
   std::printf("%s", printable(config.scene.paths.front()).c_str());
   if (config.scene.paths.size() > 1) std::printf(" and %zu more", config.scene.paths.size() - 1);
   std::printf(": %s triangles, %s positions, %s components\n",
@@ -172,6 +176,12 @@ void print_text(const InfoCommand& config, const Box& box, const SceneCounts& co
     std::printf("  %s triangles with NaN or infinity dropped\n",
                 format_count(counts.invalid).c_str());
   print_scene_notes(counts);
+  for (size_t i = 0; i < animations.size(); ++i) {
+    const auto& [name, seconds, nodes, weights] = animations[i];
+    std::printf("  animation #%zu%s%s: %.6g s, moves %s nodes, sets the weights of %s\n", i,
+                name.empty() ? "" : " ", printable(name).c_str(), seconds,
+                format_count(nodes).c_str(), format_count(weights).c_str());
+  }
   if (config.parts) std::printf("\n  %14s  part\n", "triangles");
   for (const auto& [kind, name, triangles, bounds] : parts)
     std::printf("  %14s  %s%s  %s .. %s\n", format_count(triangles).c_str(),
@@ -191,8 +201,9 @@ void info_scene(const InfoCommand& config) {
   PartsMemory memory(&budget, config.json);
   const auto parts = config.parts ? list_parts(scene, &memory) : std::vector<MeshPart>();
   const Closedness closed = closedness_of(scene, box);
-  config.json ? print_json(config, box, counts, stats, closed, parts)
-              : print_text(config, box, counts, stats, closed, parts);
+  const std::vector<Animation> animations = scene.animations();
+  config.json ? print_json(config, box, counts, stats, closed, animations, parts)
+              : print_text(config, box, counts, stats, closed, animations, parts);
 }
 
 }  // namespace svdag

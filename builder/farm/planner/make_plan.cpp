@@ -41,6 +41,7 @@ void require_names(const PlanConfig& config) {
   require_utf8(config.folder);
   require_utf8(config.output);
   for (const std::string& path : scene.paths) require_utf8(absolute_path(path));
+  require_utf8(scene.animation);
   for (const auto& names : {scene.names.include, scene.names.exclude})
     for (const std::string& name : names) require_utf8(name);
 }

@@ -81,10 +81,10 @@ std::vector<std::string> read_texts(const File& file, const char* name, const Np
 
 LayerKind read_kind(const File& file, const NpyArray& array) {
   const std::vector<std::string> texts = read_texts(file, "layer_kind", array);
-  for (const LayerKind kind : {LayerKind::kObject, LayerKind::kMaterial, LayerKind::kFile}) {
-    if (texts.size() == 1 && texts.front() == layer_kind_name(kind)) return kind;
+  for (size_t kind = 1; kind < std::size(kLayerKindNames); ++kind) {
+    if (texts.size() == 1 && texts.front() == kLayerKindNames[kind]) return LayerKind(kind);
   }
-  fail(file, "layer_kind", "that is not object, material or file");
+  fail(file, "layer_kind", "that is not object, material, file or frame");
 }
 
 void read_names(const File& file, const NpyArray& array, LayerTable* table) {

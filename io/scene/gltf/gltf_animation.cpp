@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "io/scene/gltf/gltf_elements.h"
+#include "io/scene/gltf/tile.h"
 #include "io/trigonometry.h"
 #include "streaming/error.h"
 #include "streaming/process/interrupt.h"
@@ -26,9 +28,13 @@ struct KeyTime {
   double interval = 0;  // seconds to the next key
 };
 
-KeyTime find_key(const Accessor& input, double time) {
+void require_times(const Accessor& input) {
   if (input.base.blob == nullptr || input.sparse_indices || input.count() == 0)
     fail_input(*input.path, "has an animation without times");
+}
+
+KeyTime find_key(const Accessor& input, double time) {
+  require_times(input);
   KeyTime key{0, input.count()};
   ElementStream stream(input);
   std::vector<double> window(4096);
@@ -73,6 +79,15 @@ Values slerp(Values a, Values b, double u) {
   if (!(d < kClose)) return blend(a, 1 - u, b, sign * u);
   const double angle = arc_cosine(d), whole = sine(angle);
   return blend(a, sine((1 - u) * angle) / whole, b, sign * (sine(u * angle) / whole));
+}
+
+double last_time(Accessor input) {
+  require_times(input);
+  input.base.begin += (input.count() - 1) * input.base.stride;
+  input.base.count = 1;
+  double time = 0;
+  ElementStream(input).read(std::span<double>(&time, 1));
+  return time;
 }
 
 class Poser {
@@ -177,6 +192,33 @@ uint64_t pose_at(const PoseTime& when, GltfDocument* document, GltfBuffers* buff
     fail_usage("--animation " + when.animation + ": " + document->file->path() +
                (names.empty() ? " has no animations" : " has only these:" + names));
   return poser.not_followed();
+}
+
+std::vector<Animation> gltf_animations(const File& content, const ReadOptions& options) {
+  const Tile tile(content, options.budget);
+  const GltfDocument document =
+      load_gltf(tile.gltf_file(), options.budget, {.animations = true}, tile.gltf_bytes());
+  GltfBuffers buffers(document, options.budget, options.spill, options.sandbox);
+  std::vector<Animation> animations;
+  for (const auto& value : document.root().array("animations")) {
+    const JsonObject object(value, document.file->path());
+    Animation animation{.name = object.text("name")};
+    for (const auto& sampler : object.array("samplers")) {
+      const JsonObject keys(sampler, document.file->path());
+      animation.seconds = std::max(
+          animation.seconds, last_time(buffers.accessor(keys.whole_number("input"), "SCALAR")));
+    }
+    std::set<uint64_t> nodes, weights;
+    for (const auto& each : object.array("channels")) {
+      const JsonObject target = JsonObject(each, document.file->path()).object("target");
+      if (!target.has("node")) continue;
+      (target.text("path") == "weights" ? weights : nodes).insert(target.whole_number("node"));
+    }
+    animation.nodes = nodes.size();
+    animation.weights = weights.size();
+    animations.push_back(std::move(animation));
+  }
+  return animations;
 }
 
 }  // namespace svdag

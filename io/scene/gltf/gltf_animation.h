@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "io/scene/gltf/gltf_buffers.h"
 #include "io/scene/gltf/gltf_document.h"
@@ -22,5 +23,8 @@ namespace svdag {
 // followed (KHR_animation_pointer). An animation that does not exist is an Error (kUsage), a broken
 // one, or a channel of a node with a matrix, is one of kBadInput.
 uint64_t pose_at(const PoseTime& when, GltfDocument* document, GltfBuffers* buffers);
+
+// The animations of a glTF file, in its order.
+std::vector<Animation> gltf_animations(const File& content, const ReadOptions& options);
 
 }  // namespace svdag

@@ -59,7 +59,13 @@ void BatchWriter::flush() {
   if (mirrored_) {
     for (size_t i = 0; i < size_; ++i) std::swap(batch_[i].v[1], batch_[i].v[2]);
   }
-  sink_({mesh_, material_, colour_, {}, first_, {batch_.get(), size_}, quantisation_, undeformed_});
+  sink_({.mesh = mesh_,
+         .material = material_,
+         .colour = colour_,
+         .first = first_,
+         .triangles = {batch_.get(), size_},
+         .quantisation = quantisation_,
+         .undeformed = undeformed_});
   first_ += size_;
   size_ = 0;
 }

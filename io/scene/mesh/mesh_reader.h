@@ -32,7 +32,8 @@ struct TriangleBatch {
   std::string_view mesh;              // glTF node or OBJ group, "" where the format has no names
   std::string_view material;          // "": none, or without a name
   std::optional<Colour> colour = {};  // of the material, if the format tells
-  std::string_view file;              // the name of the file, without its folder; set by Scene
+  std::string_view file = {};         // the name of the file, without its folder; set by Scene
+  std::string_view frame = {};        // the name of the time (--frames); set by Scene
   uint64_t first = 0;  // number, within the mesh, of the first triangle of this batch
   std::span<const Triangle> triangles;
   double quantisation = 0;  // world distance of the steps positions were stored in (Draco); 0: none
@@ -41,8 +42,17 @@ struct TriangleBatch {
 
 // The name of the part of this kind that a batch belongs to.
 inline std::string_view part_name(const TriangleBatch& batch, PartKind kind) {
-  if (kind == PartKind::kMaterial) return batch.material;
-  return kind == PartKind::kObject ? batch.mesh : batch.file;
+  switch (kind) {
+    case PartKind::kObject:
+      return batch.mesh;
+    case PartKind::kMaterial:
+      return batch.material;
+    case PartKind::kFile:
+      return batch.file;
+    case PartKind::kFrame:
+      return batch.frame;
+  }
+  return "";
 }
 
 using TriangleSink = std::function<void(const TriangleBatch&)>;
@@ -69,6 +79,14 @@ File create_unpacked(const std::string& path, const SpillSpace* spill);
 struct MeshBox {
   Box box;
   uint64_t triangles = 0;
+};
+
+// An animation of a file.
+struct Animation {
+  std::string name;      // may be empty
+  double seconds = 0;    // of its last key
+  uint64_t nodes = 0;    // that it moves
+  uint64_t weights = 0;  // nodes whose weights of morph targets it sets
 };
 
 // A time of animations.

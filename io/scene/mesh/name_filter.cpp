@@ -65,6 +65,8 @@ const char* name_of(PartKind kind) {
       return "material";
     case PartKind::kFile:
       return "file";
+    case PartKind::kFrame:
+      return "frame";
   }
   return "";
 }

@@ -14,6 +14,7 @@ enum class PartKind {
               // of text STL; "" where the format has no names
   kMaterial,  // of glTF primitives and OBJ faces
   kFile,      // the file's name without its folder
+  kFrame,     // the time of a pose; no pattern applies to it
 };
 constexpr PartKind kPartKinds[] = {PartKind::kObject, PartKind::kMaterial, PartKind::kFile};
 const char* name_of(PartKind kind);

@@ -70,7 +70,7 @@ class Svdag:
             struct.unpack_from("<2Q4I", self.data, 792)
         version = 2 if self.compact or self.layer_kind else 1
         demand(self.compact in (0, 1) and (self.version, size, zero) == (version, 1024, 0), "version, size or layout")
-        demand(self.layer_kind in (0, 1, 2, 3) and self.has_union in (0, 1) and zero_2 == 0, "layers")
+        demand(self.layer_kind in (0, 1, 2, 3, 4) and self.has_union in (0, 1) and zero_2 == 0, "layers")
         demand(self.layer_kind or not any(self.data[792:824]), "layers of a file without")
         demand(3 <= self.L <= 20 and self.F == min(23, 39 - self.L), "L or F")
         demand(self.rule in (0, 1) and self.kind in (0, 1, 2) and self.bounded in (0, 1), "rule, kind or flag")
@@ -285,7 +285,7 @@ class Svdag:
                      "selection": self.selection, **({"origin": self.origin} if self.kind == 2 else {})},
             "voxels": self.voxel_count, "nodes": [e[2] for e in self.entries[:self.L - 1]],
             "largest_snap": self.largest_snap,
-            **({"layers": {"kind": ["", "object", "material", "file"][self.layer_kind], "count": self.layer_count,
+            **({"layers": {"kind": ["", "object", "material", "file", "frame"][self.layer_kind], "count": self.layer_count,
                            "union": bool(self.has_union)}} if self.layer_kind else {})}, "metadata")
 
     def check_layer_voxels(self):
