@@ -1,7 +1,7 @@
 #include "io/grid.h"
 
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 
 #include "io/lattice.h"
 #include "io/units.h"
@@ -23,10 +23,17 @@ constexpr int64_t floor_to_step(int64_t k, int64_t step) {
 
 // `size` rounded up to two significant digits.
 std::string rounded_up(double size) {
-  const double unit = std::pow(10, std::floor(std::log10(size)) - 1);
   char text[32];
-  std::snprintf(text, sizeof text, "%.2g", std::ceil(size / unit) * unit);
-  return text;
+  const auto [end, error] =
+      std::to_chars(text, text + sizeof text, size, std::chars_format::scientific, 1);  // d.de-dd
+  double rounded = 0;
+  std::from_chars(text, end, rounded);
+  if (rounded >= size) return format_double(rounded);
+  const int tenths = 10 * (text[0] - '0') + (text[2] - '0') + 1;
+  const std::string next =
+      std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + std::string(text + 3, end);
+  std::from_chars(next.data(), next.data() + next.size(), rounded);
+  return format_double(rounded);
 }
 
 // Returns false if `box` does not fit 2^levels voxels of the lattice.

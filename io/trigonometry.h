@@ -1,5 +1,5 @@
-// Sine, cosine and arc cosine, of additions, multiplications, divisions and square roots in a fixed
-// order: the same bits on every machine and C library.
+// Sine, cosine, arc cosine and a root, of additions, multiplications, divisions and square roots in
+// a fixed order: the same bits on every machine and C library.
 #pragma once
 
 #include <cmath>
@@ -41,6 +41,13 @@ inline double arc_cosine(double d) {
   double angle = std::sqrt(2 - 2 * d);
   for (int step = 0; step < 5; ++step) angle = angle + (cosine(angle) - d) / sine(angle);
   return angle;
+}
+
+// For 0.001 <= x <= 1, by Newton's method from 1, which comes down to the root and stays there.
+inline double fifth_root(double x) {
+  double root = 1;
+  for (int step = 0; step < 16; ++step) root = (4 * root + x / ((root * root) * (root * root))) / 5;
+  return root;
 }
 
 }  // namespace svdag

@@ -22,7 +22,7 @@ TEST(Colour, CodesComeBackFromTheirLight) {
   }
 }
 
-// Then a std::pow that is wrong by a million units in the last place gives the same tables.
+// Then a light that is wrong by a million units in the last place gives the same tables.
 TEST(Colour, NoUnitsAreCloseToTheMiddleBetweenTwo) {
   for (int half = 0; half < 511; ++half) {
     const long double units = exact_light(half / 2.0L) * double(kWhiteUnits);
