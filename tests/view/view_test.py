@@ -226,6 +226,21 @@ class Pictures(unittest.TestCase):
             self.assertGreater(hits[:, :, 0].mean(), 0.001)
             self.assertLess(differing(page.hits(), hits), 0.001)
 
+    def test_the_slider_shows_one_frame(self):
+        scene = pathlib.Path(__file__).resolve().parent.parent / "cli" / "moving_scene.py"
+        subprocess.run([sys.executable, "-B", scene, "100"], cwd=FOLDER, check=True)
+        frames, alone = FOLDER / "frames.svdag", FOLDER / "frame.svdag"
+        program("svdag", "build", FOLDER / "moving.gltf", "-o", frames, "-q", "-r", "1K", "--frames", "0:2:0.5")
+        camera = cameras(frames)[0]
+        with Server(frames) as server, Page(server.url, camera, detail=0) as page:
+            for i, name in enumerate(["0.0", "0.5", "1.0"]):
+                program("svdag", "convert", frames, "-o", alone, "-q", "--layer", name)
+                page.run(f"(() => {{ const one = document.querySelector('.layers + .row input'); one.value = {i}; one.oninput(); }})()")
+                page.settle()
+                hits = traced(alone, camera)
+                self.assertGreater(hits[:, :, 0].mean(), 0.001)
+                self.assertLess(differing(page.hits(), hits), 0.001)
+
     def test_sections_show_only_their_box(self):
         file = baked("stanford_dragon.ply", "scan", "-r", "2K", "--layout", "compact")
         low, high = numpy.array(info(file)["occupied"]["voxels"]).reshape(2, 3)

@@ -1,5 +1,6 @@
 #include "verify/view/page.h"
 
+#include <glm/common.hpp>
 #include <nlohmann/json.hpp>
 
 #include "io/dag/occupied_bounds.h"
@@ -7,12 +8,27 @@
 #include "streaming/file/file.h"
 
 namespace svdag {
+namespace {
+
+// The smallest box that holds every voxel that the page can show.
+VoxelBox shown_bounds(const DagFile& file) {
+  if (file.layers().has_union) return occupied_bounds(file.view());
+  VoxelBox all;
+  for (size_t i = 0; i < file.layers().layers.size(); ++i) {
+    const VoxelBox one = occupied_bounds(file.view_of(i));
+    if (one.empty()) continue;
+    all = all.empty() ? one : VoxelBox{glm::min(all.min, one.min), glm::max(all.max, one.max)};
+  }
+  return all;
+}
+
+}  // namespace
 
 std::string scene_json(const DagFile& file, const TileCutter& cutter, const SceneOfPage& options) {
   using Json = nlohmann::ordered_json;
   const DagView& dag = file.view();
   const std::string& path = file.path();
-  const VoxelBox bounds = occupied_bounds(dag);
+  const VoxelBox bounds = shown_bounds(file);
   Json layers = Json::array();
   for (const Layer& layer : file.layers().layers)
     layers.push_back({{"name", shown_layer(layer.name)},

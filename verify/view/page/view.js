@@ -224,14 +224,24 @@ class Viewer {
       return element('li', {}, element('label', {}, box, swatch, element('span', {textContent: text})));
     };
     const list = element('ul', {className: 'layers'}, ...this.scene.layers.map((layer, i) => row(i, layer.name, `rgb(${layer.colour})`)));
-    const none = element('button', {type: 'button', textContent: 'All or none'});
-    none.onclick = () => {
-      const boxes = [...list.querySelectorAll('input')], on = !boxes.every((b) => b.checked);
-      boxes.forEach((box, i) => { box.checked = on; this.hidden[on ? 'delete' : 'add'](i); });
+    const boxes = [...list.querySelectorAll('input')];
+    const show = (shown) => {
+      boxes.forEach((box, i) => {
+        box.checked = shown(i);
+        this.hidden[box.checked ? 'delete' : 'add'](i);
+      });
       this.setLayers();
       this.touch();
     };
-    return element('div', {}, list, none);
+    const none = element('button', {type: 'button', textContent: 'All or none'});
+    none.onclick = () => {
+      const on = !boxes.every((box) => box.checked);
+      show(() => on);
+    };
+    const one = element('input', {type: 'range', min: 0, max: boxes.length - 1, step: 1, value: 0, title: 'One layer alone'});
+    one.setAttribute('aria-label', 'One layer alone');
+    one.oninput = () => show((i) => i === Number(one.value));
+    return element('div', {}, list, element('div', {className: 'row'}, none, one));
   }
 
   showStatus(seconds) {
