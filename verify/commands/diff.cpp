@@ -80,12 +80,7 @@ void render_both(const DiffConfig& config, const DagFile& a, const DagFile& b, P
   picture.width = config.size.width;
   picture.height = config.size.height;
   const DagView &one = a.view(), &two = b.view();
-  VoxelBounds box = framing_bounds(one.empty() ? two : one);
-  const VoxelBounds other = framing_bounds(two.empty() ? one : two);
-  for (int i = 0; i < 3; ++i) {
-    box.min[i] = std::min(box.min[i], other.min[i]);
-    box.max[i] = std::max(box.max[i], other.max[i]);
-  }
+  const VoxelBounds box = framing_bounds(two, framing_bounds(one));
   constexpr int kUp = 1;
   const Camera camera =
       preset_camera("iso", {}, box, kUp, Camera::kDefaultFov, config.size.aspect());

@@ -29,11 +29,12 @@ ShadeMode parse_mode(const std::string& mode) {
              "\" is not primary, shadow, soft, ao, normal, depth, level, steps or colour");
 }
 
-// The first camera. A camera that flies keeps the whole box in view.
+// The first camera. A camera that flies keeps the whole box in view, and so does one of frames.
 Camera first_camera(const RenderCommandConfig& config, const DagView& dag, const VoxelBounds& box) {
   const ViewOptions& view = config.view;
   if (config.fly && view.camera.empty() && view.preset != "inside")
     return camera_of(view, {}, turntable_bounds(box, view.up));
+  if (config.frames && view.preset != "inside") return camera_of(view, {}, box);
   return camera_of(view, dag, box);
 }
 
@@ -159,7 +160,10 @@ int run(const RenderCommandConfig& config) {
   if (layered) colours.show_in(&picture);
   if (file.view().empty()) fail_usage(file.path() + ": has no voxel to trace");
   VoxelBox shown = config.clip ? clipped_voxels(file.grid(), *config.clip) : file.grid().whole();
-  const VoxelBounds box = clipped_bounds(framing_bounds(file.view()), shown);
+  VoxelBounds whole = framing_bounds(file.view());
+  for (int frame = 0; config.frames && frame < frames; ++frame)
+    whole = framing_bounds(file.view_of(size_t(frame)), whole);
+  const VoxelBounds box = clipped_bounds(whole, shown);
   const Camera first = first_camera(config, file.view(), box);
   if (!config.slice.empty()) slice(config.slice, file.view(), first.position, &shown);
   if (config.clip || !config.slice.empty()) picture.clip = clip_box(shown);

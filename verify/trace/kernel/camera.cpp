@@ -174,8 +174,7 @@ Camera frame_voxels(const DagView& dag, const VoxelBounds& box, const Vec3& towa
   return framing.camera();
 }
 
-VoxelBounds framing_bounds(const DagView& dag) {
-  VoxelBounds box;
+VoxelBounds framing_bounds(const DagView& dag, VoxelBounds box) {
   if (!dag.empty()) grow(dag, 0, 0, {}, &box);
   return box;
 }

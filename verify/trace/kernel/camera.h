@@ -41,8 +41,8 @@ Camera frame_box(const VoxelBounds& box, const Vec3& towards, int up, double fov
 Camera frame_voxels(const DagView& dag, const VoxelBounds& box, const Vec3& towards, int up,
                     double fov, double aspect);
 
-// Bounds of the set voxels, rounded outwards to 1/256 of the grid or to bricks, whichever is
-// larger: precise enough to frame a picture.
-VoxelBounds framing_bounds(const DagView& dag);
+// `box`, grown to the bounds of the set voxels, rounded outwards to 1/256 of the grid or to bricks,
+// whichever is larger: precise enough to frame a picture.
+VoxelBounds framing_bounds(const DagView& dag, VoxelBounds box = {});
 
 }  // namespace svdag

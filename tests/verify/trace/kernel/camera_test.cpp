@@ -102,6 +102,13 @@ TEST(Camera, BoundsOfSmallGridsAreThoseOfBricks) {
     EXPECT_EQ(box.min[a], min[a]);
     EXPECT_EQ(box.max[a], max[a]);
   }
+  const RawFile later(raw_dag(test_grid(6), {{60, 2, 5}}));
+  const VoxelBounds both = framing_bounds(later.view(), box);
+  const Vec3 grown_min{{4, 0, 0}}, grown_max{{64, 44, 64}};
+  for (int a = 0; a < 3; ++a) {
+    EXPECT_EQ(both.min[a], grown_min[a]);
+    EXPECT_EQ(both.max[a], grown_max[a]);
+  }
 }
 
 // The walls of a box of voxels.
