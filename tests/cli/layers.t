@@ -262,7 +262,7 @@ $ for change in "label=numpy.array([0,2])" "label=numpy.array([0])" "label=numpy
 ! svdag: wrong.npz: has an array "layer_names" that is not a row of texts, or of uint8, of at most 64 MiB
 ! svdag: wrong.npz: has an array "layer_colours" that is not an integer for each layer
 ! svdag: wrong.npz: has an array "layer_colours" that is not of colours 0xRRGGBB
-! svdag: wrong.npz: has an array "layer_kind" that is not object, material or file
+! svdag: wrong.npz: has an array "layer_kind" that is not object, material, file or frame
 $ test ! -e x.svdag && svdag import wrong.npz -o x.svdag --no-layers
 | x.svdag: npz, 2 voxels of 8^3, 2 DAG nodes, 1.4 KiB
 |   content hash f8f82853e96fcea02f678611f13d071f
