@@ -32,6 +32,7 @@ struct ReadySplit {
   SpillFile* triangles = nullptr;  // holds the streams of `bins`
   SceneLayers layers = {};
   std::shared_ptr<const CellWindings> windings = {};  // null unless the rule is solid
+  CutOuts cut_outs = {};
 };
 
 // Default of --checkpoint, in seconds.

@@ -17,13 +17,15 @@ struct Triangle {
 };
 
 // Of which sets of a bake a triangle is a sheet only (io/scene/open_parts.h).
-constexpr uint32_t kSheetOfUnion = 1, kSheetOfLayer = 2;
+constexpr uint32_t kSheetOfUnion = 1, kSheetOfLayer = 2, kSheets = 3;
+constexpr uint32_t kMaxCut = (uint32_t(1) << 30) - 1;
 
 // The normative geometry: everything after the snap is decided on these integers alone.
 struct LatticeTriangle {
   std::array<LatticePoint, 3> v;
-  uint32_t subject = 0;  // with layers: its layer (builder/octree/subject.h)
-  uint32_t sheet = 0;    // kSheetOf...: of an open part, which bounds no solid
+  uint32_t subject = 0;    // with layers: its layer (builder/octree/subject.h)
+  uint32_t sheet : 2 = 0;  // kSheetOf...: of an open part, which bounds no solid
+  uint32_t cut : 30 = 0;   // not 0: a cut-out triangle (io/scene/cutouts/cut_records.h)
   bool operator==(const LatticeTriangle&) const = default;
 };
 

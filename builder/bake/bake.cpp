@@ -199,8 +199,9 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   if (saved && saved->split) {
     split = std::move(*saved->split);
   } else if (config.ready != nullptr) {
-    split = {config.ready->counts, nullptr, config.ready->bins, config.ready->layers,
-             config.ready->windings};
+    split = {config.ready->counts,   nullptr,
+             config.ready->bins,     config.ready->layers,
+             config.ready->windings, config.ready->cut_outs};
   } else {
     split = split_scene(tools, scene, chosen, splitting, description, checkpoint);
   }
@@ -222,16 +223,17 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
     for (BakedRun& baked : saved->runs) runs.restore(std::move(baked));
   }
   report.voxels_kept = runs.set().voxels;
-  Voxelizer voxelizer(grid,
-                      {{config.fast_paths, config.rule},
-                       workspace->shares().table,
-                       config.checkpoint,
-                       config.with_union,
-                       workspace->scratch(),
-                       &done,
-                       store.get(),
-                       [&runs](BakedRun baked) { runs.save(std::move(baked)); }},
-                      workspace->budget(), executor);
+  Voxelizer voxelizer(
+      grid,
+      {{config.fast_paths, config.rule, split.cut_outs.empty() ? nullptr : &split.cut_outs},
+       workspace->shares().table,
+       config.checkpoint,
+       config.with_union,
+       workspace->scratch(),
+       &done,
+       store.get(),
+       [&runs](BakedRun baked) { runs.save(std::move(baked)); }},
+      workspace->budget(), executor);
   voxelize(tools, grid, splitting, &split, done, &voxelizer);
 
   phases.begin("sort", kSortShare, &report.phases.sort);

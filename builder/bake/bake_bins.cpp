@@ -50,14 +50,20 @@ std::unique_ptr<CellWindings> BinBaker::finer_windings(const CellWindings* known
   return std::make_unique<CellWindings>(grid_.levels, cube, level, budget_);
 }
 
+size_t BinBaker::materials() const {
+  const CutOuts* const cut_outs = voxelizer_->descent().cut_outs;
+  return cut_outs == nullptr ? 0 : cut_outs->size();
+}
+
 template <class Visit>
 bool BinBaker::read(SpillFile* file, const TriangleBin& bin, size_t batch, const Visit& visit) {
-  BinReader reader(file, bin, budget_);
+  BinReader reader(file, bin, budget_, materials());
   std::vector<LatticeTriangle> triangles;
+  CutRecords cuts;
   triangles.reserve(std::min<uint64_t>(batch, bin.triangles));
-  for (; reader.read(batch, &triangles); triangles.clear()) {
+  for (; reader.read(batch, &triangles, &cuts); triangles.clear(), cuts.clear()) {
     check_interrupt();
-    if (!visit(&triangles)) return false;
+    if (!visit(&triangles, cuts)) return false;
   }
   return true;
 }
@@ -70,9 +76,9 @@ bool BinBaker::bake_tree(SpillFile* file, const TriangleBin& bin, const CellWind
   const int cell_level = std::min({wanted, finest, grid_.levels - 2});
   CellTree tree(grid_, bin.cube, cell_level, budget_);
   const auto own = finer_windings(windings, bin.cube, cell_level);
-  const bool fits = read(file, bin, kBatch, [&](const std::vector<LatticeTriangle>* triangles) {
+  const bool fits = read(file, bin, kBatch, [&](const auto* triangles, const CutRecords& cuts) {
     for (const LatticeTriangle& triangle : *triangles) {
-      tree.add(triangle);
+      tree.add(triangle, cut_record_of(triangle, cuts));
       if (own) own->add(triangle);
     }
     return tree.bytes(split_.workers) <= split_.triangle_bytes;
@@ -85,8 +91,8 @@ bool BinBaker::bake_tree(SpillFile* file, const TriangleBin& bin, const CellWind
 }
 
 void BinBaker::bake_dense(SpillFile* file, const TriangleBin& bin, const CellWindings* windings) {
-  constexpr uint64_t kPerTriangle =
-      sizeof(LatticeTriangle) + sizeof(TriangleSetup) + 8 * sizeof(ListedTriangle);
+  constexpr uint64_t kPerTriangle = sizeof(LatticeTriangle) + sizeof(CutRecord) +
+                                    sizeof(TriangleSetup) + 8 * sizeof(ListedTriangle);
   const uint64_t most = std::max(split_.triangle_bytes / kPerTriangle, uint64_t(kBatch));
   const auto reservation = budget_->reserve(most * kPerTriangle, "triangles of a dense cube");
   DenseCube cube(grid_, bin.cube, voxelizer_->descent(), budget_);
@@ -100,7 +106,7 @@ void BinBaker::bake_dense(SpillFile* file, const TriangleBin& bin, const CellWin
   // Fills the bitmap with all triangles, or with the triangles of a layer.
   const auto fill = [&](std::optional<Subject> only) {
     cube.clear(only ? kSheetOfLayer : kSheetOfUnion);
-    read(file, bin, most, [&](std::vector<LatticeTriangle>* triangles) {
+    read(file, bin, most, [&](std::vector<LatticeTriangle>* triangles, const CutRecords& cuts) {
       if (only) {
         std::erase_if(*triangles, [&](const LatticeTriangle& t) { return t.subject != *only; });
       } else {
@@ -110,7 +116,7 @@ void BinBaker::bake_dense(SpillFile* file, const TriangleBin& bin, const CellWin
         }
         progress_->advance(triangles->size());
       }
-      cube.add(*triangles, executor_);
+      cube.add(*triangles, cuts, executor_);
       return true;
     });
     cube.fill(winding_of(at_cube, only.value_or(kUnionSet)));
@@ -140,9 +146,9 @@ void BinBaker::bake_parts(SpillFile* file, const TriangleBin& bin, const CellWin
   SpillFile* transient = split_.scratch->transient();
   TriangleBins bins(grid_, bin.cube, depth, transient, split_.scratch);
   const auto own = finer_windings(windings, bin.cube, bin.cube.level + depth);
-  read(file, bin, kBatch, [&](const std::vector<LatticeTriangle>* triangles) {
+  read(file, bin, kBatch, [&](const auto* triangles, const CutRecords& cuts) {
     for (const LatticeTriangle& triangle : *triangles) {
-      bins.add(triangle);
+      bins.add(triangle, cut_record_of(triangle, cuts));
       if (own) own->add(triangle);
     }
     return true;

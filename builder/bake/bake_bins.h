@@ -34,7 +34,8 @@ class BinBaker {
   void bake(SpillFile* file, const TriangleBin& bin, const CellWindings* windings);
 
  private:
-  // visit(&triangles) for batch after batch, until it returns false; whether it never did.
+  size_t materials() const;  // that cut
+  // visit(&triangles, cuts) for batch after batch, until it returns false; whether it never did.
   template <class Visit>
   bool read(SpillFile* file, const TriangleBin& bin, size_t batch, const Visit& visit);
   // The winding numbers of the cubes of `level` in the bin; null if `known` has that level. The

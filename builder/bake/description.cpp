@@ -80,8 +80,8 @@ void describe_options(const ContentOptions& options, std::ostream* out) {
 // follow from the layers.
 void describe_scene(const SceneConfig& scene, std::ostream* out) {
   [[maybe_unused]] const auto& [paths, names, skip_invalid, sandbox, allow_unmatched, allow_outside,
-                                transform, up, scale, hidden, time, frames, animation, colours,
-                                only] = scene;
+                                transform, up, scale, hidden, time, frames, animation, cut_outs,
+                                colours, only] = scene;
   *out << "included parts: " << list(names.include) << '\n';
   *out << "excluded parts: " << list(names.exclude) << '\n';
   if (const Affine to_world = scene.to_world(); to_world != Affine())
@@ -90,6 +90,7 @@ void describe_scene(const SceneConfig& scene, std::ostream* out) {
     *out << (time ? "time: " + format_double(*time) : "frames: " + frames.text())
          << " of animation " << escaped(animation) << '\n';
   if (hidden) *out << "hidden nodes: baked\n";
+  if (!cut_outs) *out << "cut-outs: whole\n";
   *out << "invalid triangles: " << (skip_invalid ? "dropped" : "refused") << '\n';
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 // Changes when any record does, those of builder/split/bin_record.h included. Journals without a
 // layout begin with the length of their description instead, a text of several lines.
-constexpr uint32_t kLayout = 7;
+constexpr uint32_t kLayout = 8;
 
 // Writes a field in a form without padding or bool.
 struct PutField {
@@ -175,6 +175,7 @@ RecordWriter split_record(const SplitScene& split) {
   put_bins(split.bins, &record);
   put_layers(split.layers, &record);
   put_windings(split.windings.get(), &record);
+  put_cut_outs(split.cut_outs, &record);
   return record;
 }
 
@@ -205,6 +206,7 @@ SavedBake read_saved(std::span<const JournalRecord> records, const std::string& 
       saved.split->bins = get_bins(&in, saved.grid.levels);
       saved.split->layers = get_layers(&in);
       saved.split->windings = get_windings(&in, saved.grid.levels);
+      saved.split->cut_outs = get_cut_outs(&in);
       for (const TriangleBin& bin : saved.split->bins) grow(&saved.triangle_blocks, bin.stream);
     } else if (kind == SavedKind::kRun) {
       const Run& run = saved.runs.emplace_back(get_run(&in, saved.grid.levels)).run;

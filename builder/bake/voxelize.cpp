@@ -22,13 +22,19 @@ class Voxelizer::Worker {
         builder_(grid.levels, builder_config(config, budget)),
         descent_(grid, config.descent, &builder_, config.done) {}
 
-  void begin(const CellTree& tree) { cursor_.emplace(tree, config_.descent.overlap()); }
-  void end() { cursor_.reset(); }
+  void begin(const CellTree& tree) {
+    cursor_.emplace(tree, config_.descent.overlap());
+    if (!tree.cuts().empty()) descent_.use(&tree.cuts());
+  }
+  void end() {
+    cursor_.reset();
+    descent_.use(nullptr);
+  }
   void bake(const Cube& cell, const CellWindings* windings) {
     const LayerWindings at_cell = windings_at(cell, windings);
     const TriangleList& list = cursor_->list(cell);
     const std::optional<SubDagSets> sets = descent_.shared_sets(list, at_cell);
-    if (config_.store == nullptr || !is_new(cell) || !sets ||
+    if (config_.store == nullptr || !is_new(cell) || !sets || has_cuts(list) ||
         (!is_layer(sets->subject) && !config_.with_union))
       return descent_.run(cell, list, at_cell);
     const CellKey key = config_.store->key(cell, list, winding_of(at_cell, kUnionSet));

@@ -94,6 +94,7 @@ std::string report_json(const BakeCommand& config, const BuildReport& r) {
                {"triangles_clipped", r.split.clipped},
                {"triangles_degenerate", r.split.degenerate},
                {"triangles_invalid", r.split.scene.invalid},
+               {"triangles_cut", r.split.scene.cut},
                {"triangles_undeformed", r.split.scene.undeformed},
                {"left_out", left_out_json(r.split.scene.left_out)},
                {"patterns_unmatched", r.split.scene.unmatched},

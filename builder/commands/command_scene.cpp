@@ -18,6 +18,9 @@ void print_scene_notes(const SceneCounts& counts) {
     if (counts.left_out[i] > 0)
       std::printf("  %s %s\n", format_count(counts.left_out[i]).c_str(), kOmissions[i].text);
   }
+  if (counts.cut > 0)
+    std::printf("  %s triangles are cut out by the alpha of their material\n",
+                format_count(counts.cut).c_str());
   if (counts.undeformed > 0)
     std::printf("  %s triangles are read as stored: skins and morph targets are not applied\n",
                 format_count(counts.undeformed).c_str());

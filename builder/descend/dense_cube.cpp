@@ -24,7 +24,8 @@ DenseCube::DenseCube(const Grid& grid, const Cube& cube, const DescentConfig& co
   steps_.assign(lines_->points(), 0);
 }
 
-void DenseCube::add(std::span<const LatticeTriangle> triangles, Executor* executor) {
+void DenseCube::add(std::span<const LatticeTriangle> triangles, const CutRecords& cuts,
+                    Executor* executor) {
   const size_t parts = executor->workers();
   const uint64_t first = morton(cube_.coordinate) * bricks_.size();
   executor->for_each(parts, [&](size_t, size_t i) {
@@ -35,7 +36,7 @@ void DenseCube::add(std::span<const LatticeTriangle> triangles, Executor* execut
         [&](const LatticePoint& at, Brick brick) {
           std::atomic_ref(bricks_[morton(at) - first]).fetch_or(brick, std::memory_order_relaxed);
         },
-        budget_);
+        budget_, &cuts);
     if (!lines_) return;
     for (const LatticeTriangle& triangle : share) {
       if ((triangle.sheet & sheets_) != 0) continue;

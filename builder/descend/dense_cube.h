@@ -27,8 +27,8 @@ class DenseCube {
   DenseCube(const Grid& grid, const Cube& cube, const DescentConfig& config, MemoryBudget* budget);
 
   const Cube& cube() const { return cube_; }
-  // Sets the voxels of `triangles`, which are distributed over the workers.
-  void add(std::span<const LatticeTriangle> triangles, Executor* executor);
+  // Sets the voxels of `triangles`, which are distributed over the workers. `cuts`: their records.
+  void add(std::span<const LatticeTriangle> triangles, const CutRecords& cuts, Executor* executor);
   // Sets the voxels inside of the solid, given the winding number at the cube's first_centre(). To
   // be called once, after all triangles were added; does nothing for the other rules.
   void fill(int32_t winding);

@@ -59,7 +59,14 @@ void Descent::run(const Cube& cube, const TriangleList& list, const LayerWinding
   partly_done_ = done_ != nullptr &&
                  done_->coverage(morton_range(cube, grid_.levels)) != MortonSet::Coverage::kNone;
   builder_->begin(cube);
-  node(cube, list, {shared_sets(list, windings), windings});
+  if (cuts_ != nullptr && has_cuts(list)) {
+    whole_.clear();
+    TriangleList settled = list;
+    settle_cuts(cube, &settled);
+    node(cube, settled, {shared_sets(settled, windings), windings});
+  } else {
+    node(cube, list, {shared_sets(list, windings), windings});
+  }
   update_memo(builder_->end());
 }
 
@@ -158,12 +165,13 @@ void Descent::node(const Cube& cube, const TriangleList& list, const CubeSets& s
   if (need == Need::kNothing) return;
   if (list.empty() && need == Need::kAll) return add_full(cube, list, sets);
   if (cube.level == table_->brick_level()) return brick(cube, list, sets);
-  if (config_.plane_memo && need == Need::kAll && list.size() <= kLargestPatch &&
+  const bool cut = cuts_ != nullptr && has_cuts(list);
+  if (!cut && config_.plane_memo && need == Need::kAll && list.size() <= kLargestPatch &&
       find_in_memo(cube, list, sets))
     return;
   const bool selected = !grid_.bounded || grid_.selection.holds(cube.voxels(grid_.levels));
-  if (config_.cubes && cube.level + 1 == table_->brick_level() && need == Need::kAll && selected &&
-      sets.shared && !is_solid(config_.rule))
+  if (!cut && config_.cubes && cube.level + 1 == table_->brick_level() && need == Need::kAll &&
+      selected && sets.shared && !is_solid(config_.rule))
     return eight_bricks(cube, list, sets);
   pause_at(cube);
   divide(cube, list, sets, need == Need::kRest);
@@ -175,6 +183,9 @@ void Descent::divide(const Cube& cube, const TriangleList& list, const CubeSets&
   std::array<TriangleList, 8>& lists = lists_[size_t(cube.level)];
   std::array<CubeSets, 8>& sets_of = sets_[size_t(cube.level)];
   divide_list(list, cube, grid_.levels, config_.overlap(), &lists);
+  if (cuts_ != nullptr && has_cuts(list)) {
+    for (unsigned c = 0; c < 8; ++c) settle_cuts(cube.child(c), &lists[c]);
+  }
   for (CubeSets& child : sets_of) {
     child.shared = sets.shared;
     child.windings.clear();
@@ -306,6 +317,12 @@ Brick Descent::voxels_of(const Cube& cube, std::span<const ListedTriangle> list,
                          uint32_t sheets) {
   const Brick wanted = grid_.bounded ? selected_voxels(cube, grid_.selection) : ~Brick(0);
   const LatticePoint corner = cube.corner(grid_.levels);
+  if (cuts_ != nullptr) {
+    Brick voxels = 0;
+    for (const ListedTriangle& entry : list)
+      voxels |= opaque_voxels(entry, corner, wanted & ~voxels);
+    return voxels;
+  }
   if (!is_solid(config_.rule))
     return voxels_.brick(list.data(), list.size(), corner, grid_.fraction(), wanted,
                          &counts_.decisions);

@@ -16,13 +16,19 @@
 // the union's brick is the OR of the layers' bricks. With the solid rules it is not: the union has
 // a winding number of its own, and a layer is also where it has no triangle, but winds around the
 // cube.
+// Cut-outs (io/scene/cutouts/): where a cut triangle is transparent in a cube, it leaves the list;
+// where it is opaque, it is as any other from there on; what is left is divided, and its voxels are
+// decided one by one, by its opaque points. No memo and no fast path knows a list with such a
+// triangle.
 // Rejected: the layers one after the other, and the union by recursive OR of their nodes (the upper
 // cubes are divided once for each layer).
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "builder/descend/patch.h"
@@ -35,6 +41,7 @@
 #include "builder/reduce/sub_dag_builder.h"
 #include "builder/winding/cell_windings.h"
 #include "io/grid.h"
+#include "io/scene/cutouts/cut_records.h"
 
 namespace svdag {
 
@@ -53,7 +60,8 @@ struct FastPaths {
 };
 
 struct DescentConfig : FastPaths {
-  Rule rule = Rule::kConservative;  // which voxels are set
+  Rule rule = Rule::kConservative;    // which voxels are set
+  const CutOuts* cut_outs = nullptr;  // of the materials; null: no triangle is cut
 };
 
 struct DescentCounts {
@@ -77,6 +85,8 @@ class Descent {
   Descent(const Grid& grid, const DescentConfig& config, SubDagBuilder* builder,
           const MortonSet* done = nullptr);
 
+  // The records of the cut-out triangles of the cubes from here on, which must outlive them.
+  void use(const CutRecords* cuts) { cuts_ = cuts; }
   // Bakes `cube` (level <= brick level), whose triangles are in `list`. Cubes must be disjoint. The
   // solid rules need the winding numbers at its first_centre().
   void run(const Cube& cube, const TriangleList& list, const LayerWindings& windings = {});
@@ -112,6 +122,10 @@ class Descent {
   template <class Visit>
   static void for_each_set(const TriangleList& list, const CubeSets& sets, const Visit& visit);
   void pause_at(const Cube& cube);
+  // Cut-outs (builder/descend/cut_list.cpp).
+  void settle_cuts(const Cube& cube, TriangleList* list);
+  const TriangleSetup* whole(const TriangleSetup* triangle);
+  Brick opaque_voxels(const ListedTriangle& entry, const LatticePoint& corner, Brick wanted);
   void node(const Cube& cube, const TriangleList& list, const CubeSets& sets);
   void divide(const Cube& cube, const TriangleList& list, const CubeSets& sets, bool as_roots);
   void eight_bricks(const Cube& cube, const TriangleList& list, const CubeSets& sets);
@@ -143,6 +157,10 @@ class Descent {
   PlaneMemo memo_;
   std::array<KnownTriangle, 64> known_;  // direct-mapped, see known_plane()
   double cell_side_ = 0;                 // of the cell being baked, in voxels
+
+  const CutRecords* cuts_ = nullptr;
+  // Of cut triangles of this cell: as they are where all of them is opaque.
+  std::unordered_map<const TriangleSetup*, std::unique_ptr<TriangleSetup>> whole_;
 
   const MortonSet* done_;                           // null: nothing
   bool partly_done_ = false;                        // a part of the cell being baked is in done_

@@ -17,7 +17,7 @@ void emit(const NodeTable& table, const Cube& cube, uint32_t node, const BrickSi
 
 uint64_t voxelize_window(const Grid& grid, const DescentConfig& config, const Cube& window,
                          std::span<const LatticeTriangle> triangles, const BrickSink& sink,
-                         MemoryBudget* budget) {
+                         MemoryBudget* budget, const CutRecords* cuts) {
   MemoryBudget unlimited;
   SubDagBuilder builder(grid.levels, {.budget = budget != nullptr ? budget : &unlimited});
   std::vector<TriangleSetup> setups;
@@ -34,7 +34,9 @@ uint64_t voxelize_window(const Grid& grid, const DescentConfig& config, const Cu
     const WindingLines lines(grid.levels, window, window.level);
     for (const LatticeTriangle& triangle : triangles) winding += lines.ray_change(triangle);
   }
-  Descent(grid, config, &builder).run(window, list, {{kUnionSet, winding}});
+  Descent descent(grid, config, &builder);
+  if (config.cut_outs != nullptr) descent.use(cuts);
+  descent.run(window, list, {{kUnionSet, winding}});
   builder.settle();
   if (builder.roots().empty()) return 0;
   emit(*builder.table(), window, 1 + builder.roots().front().rank, sink);

@@ -16,9 +16,9 @@ using BrickSink = std::function<void(const LatticePoint& coordinate, Brick brick
 
 // Passes the non-empty bricks of `triangles` in `window` to `sink`, in Morton order; returns the
 // number of voxels. window.level is at most grid.levels - 2. The solid rules need all triangles of
-// the solid.
+// the solid. `cuts`: the records of those that are cut.
 uint64_t voxelize_window(const Grid& grid, const DescentConfig& config, const Cube& window,
                          std::span<const LatticeTriangle> triangles, const BrickSink& sink,
-                         MemoryBudget* budget = nullptr);
+                         MemoryBudget* budget = nullptr, const CutRecords* cuts = nullptr);
 
 }  // namespace svdag

@@ -1,6 +1,7 @@
 // Triangle lists of octree cubes: the triangles that may touch a cube, with their undecided edges.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "builder/octree/subject.h"
@@ -22,6 +23,10 @@ using TriangleList = std::vector<ListedTriangle>;
 inline bool is_of_one_layer(const TriangleList& list) {
   return list.empty() ||
          list.front().triangle->triangle.subject == list.back().triangle->triangle.subject;
+}
+inline bool has_cuts(const TriangleList& list) {
+  return std::ranges::any_of(
+      list, [](const ListedTriangle& entry) { return entry.triangle->triangle.cut != 0; });
 }
 // The subject of a list of one layer.
 inline Subject subject_of(const TriangleList& list) {

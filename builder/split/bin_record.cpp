@@ -1,5 +1,9 @@
 #include "builder/split/bin_record.h"
 
+#include <algorithm>
+#include <memory>
+#include <utility>
+
 namespace svdag {
 namespace {
 
@@ -81,6 +85,65 @@ SceneLayers get_layers(RecordReader* in) {
   SceneLayers layers{LayerKind(kind)};
   layers.restore(std::move(read));
   return layers;
+}
+
+void put_cut_outs(const CutOuts& cut_outs, RecordWriter* out) {
+  std::vector<const AlphaImage*> images;
+  for (const CutOut& cut : cut_outs) {
+    if (std::ranges::find(images, cut.image.get()) == images.end())
+      images.push_back(cut.image.get());
+  }
+  out->put(uint64_t(images.size()));
+  for (const AlphaImage* image : images) {
+    out->put(image->width());
+    out->put(image->height());
+    out->put(image->texels());
+  }
+  out->put(uint64_t(cut_outs.size()));
+  for (const CutOut& cut : cut_outs) {
+    out->put(uint32_t(std::ranges::find(images, cut.image.get()) - images.begin()));
+    out->put(uint32_t(cut.wrap_u));
+    out->put(uint32_t(cut.wrap_v));
+    out->put(uint32_t(cut.nearest));
+    out->put(cut.threshold);
+  }
+}
+
+CutOuts get_cut_outs(RecordReader* in) {
+  constexpr const char* kImpossible = "impossible cut-outs";
+  std::vector<std::shared_ptr<const AlphaImage>> images;
+  uint64_t count = 0;
+  for (in->get(&count); count > 0; --count) {
+    int64_t width = 0, height = 0;
+    std::vector<uint8_t> texels;
+    in->get(&width);
+    in->get(&height);
+    in->get(&texels);
+    constexpr int64_t kMaxSide = int64_t(1) << 20;
+    in->require(width > 0 && width <= kMaxSide && height > 0 && height <= kMaxSide &&
+                    uint64_t(width * height) == texels.size(),
+                kImpossible);
+    images.push_back(std::make_shared<AlphaImage>(width, height, std::move(texels)));
+  }
+  CutOuts cut_outs;
+  for (in->get(&count); count > 0; --count) {
+    CutOut& cut = cut_outs.emplace_back();
+    uint32_t image = 0, wrap_u = 0, wrap_v = 0, nearest = 0;
+    in->get(&image);
+    in->get(&wrap_u);
+    in->get(&wrap_v);
+    in->get(&nearest);
+    in->get(&cut.threshold);
+    constexpr uint32_t kLastWrap = uint32_t(Wrap::kClamp);
+    in->require(image < images.size() && wrap_u <= kLastWrap && wrap_v <= kLastWrap &&
+                    nearest <= 1 && cut.threshold >= 0,
+                kImpossible);
+    cut.image = images[image];
+    cut.wrap_u = Wrap(wrap_u);
+    cut.wrap_v = Wrap(wrap_v);
+    cut.nearest = nearest == 1;
+  }
+  return cut_outs;
 }
 
 void put_windings(const CellWindings* windings, RecordWriter* out) {

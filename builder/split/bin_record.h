@@ -1,12 +1,12 @@
-// Serializes triangle bins, layers and winding numbers in records: for the journal of a bake and
-// the index of a plan.
+// Serializes triangle bins, layers, cut-outs and winding numbers in records: for the journal of a
+// bake and the index of a plan.
 #pragma once
 
 #include <vector>
 
-#include "builder/winding/cell_windings.h"
 #include "builder/split/scene_layers.h"
 #include "builder/split/triangle_bins.h"
+#include "builder/winding/cell_windings.h"
 #include "streaming/spill/record.h"
 
 namespace svdag {
@@ -21,6 +21,10 @@ std::vector<TriangleBin> get_bins(RecordReader* in, int levels);
 // Names and colours, in their order.
 void put_layers(const SceneLayers& layers, RecordWriter* out);
 SceneLayers get_layers(RecordReader* in);
+
+// The materials that cut, their images included.
+void put_cut_outs(const CutOuts& cut_outs, RecordWriter* out);
+CutOuts get_cut_outs(RecordReader* in);
 
 // The winding numbers of the cells of a grid; null: none.
 void put_windings(const CellWindings* windings, RecordWriter* out);

@@ -50,8 +50,10 @@ void CellTree::charge(uint64_t bytes) {
     reservation_.resize(std::max(2 * used_, reservation_.bytes() + (1U << 20)), "triangles");
 }
 
-void CellTree::add(const LatticeTriangle& triangle) {
+void CellTree::add(const LatticeTriangle& whole, const CutRecord* cut) {
   ++added_;
+  if (cut != nullptr) charge(sizeof *cut);
+  const LatticeTriangle triangle = with_record(whole, cut, &cuts_);
   const LatticeBox box = box_of(triangle);
   const unsigned met = children_of(root_cube_, box);
   if (met == 0) insert(root_.get(), root_cube_, store(kNoOctant, triangle), box);

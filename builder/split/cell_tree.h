@@ -19,6 +19,7 @@
 #include "builder/octree/morton.h"
 #include "builder/overlap/kernels/divide_list.h"
 #include "builder/split/packed_triangles.h"
+#include "io/scene/cutouts/cut_records.h"
 #include "streaming/memory/memory_budget.h"
 
 namespace svdag {
@@ -31,8 +32,11 @@ class CellTree {
   CellTree(const Grid& grid, const Cube& root, int cell_level, MemoryBudget* budget);
   ~CellTree();
 
-  // Adds a triangle whose box meets the closed root cube.
-  void add(const LatticeTriangle& triangle);
+  // Adds a triangle whose box meets the closed root cube. `cut`: its record if it is cut, else
+  // null.
+  void add(const LatticeTriangle& triangle, const CutRecord* cut = nullptr);
+  // Of the triangles that are cut.
+  const CutRecords& cuts() const { return cuts_; }
   // Prepares the triangles of inner nodes. No triangle may be added afterwards.
   void seal();
 
@@ -79,6 +83,7 @@ class CellTree {
   int cell_level_;
   std::unique_ptr<Node> root_;
   std::array<PackedTriangles, kOctants + 1> triangles_;  // [octant]; the last: of the root itself
+  CutRecords cuts_;
   uint64_t added_ = 0;
   MemoryBudget::Reservation reservation_;
   uint64_t used_ = 0;

@@ -5,7 +5,7 @@ namespace svdag {
 // Vertices differ by less than 2^63 (builder/overlap/triangle_setup.h), so no difference overflows.
 void PackedTriangles::push_back(const LatticeTriangle& triangle) {
   Record record{};
-  bool small = triangle.subject <= UINT16_MAX;
+  bool small = triangle.subject <= UINT16_MAX && triangle.cut == 0;
   for (size_t a = 0; a < 3; ++a) {
     const int64_t q = triangle.v[0][int(a)];
     record.low[a] = uint32_t(q);
@@ -37,7 +37,7 @@ LatticeTriangle PackedTriangles::operator[](uint64_t i) const {
     for (size_t k = 0; k < 2; ++k) triangle.v[k + 1][int(a)] = q + record.to_others[k][a];
   }
   triangle.subject = record.subject;
-  triangle.sheet = record.sheet;
+  triangle.sheet = record.sheet & kSheets;
   return triangle;
 }
 

@@ -1,7 +1,8 @@
 // The triangles of a CellTree, in 44 bytes each where a LatticeTriangle takes 80.
 //
 // A scan has millions of triangles of a few voxels: vertex 0 takes 40 bits per axis, the
-// differences to the others 32. The few that need more are kept as they are in a second array.
+// differences to the others 32. The few that need more, or are
+// cut out, are kept as they are in a second array.
 // Rejected: the code of TriangleBins (3 bytes shorter, but triangle i cannot be found in it).
 #pragma once
 

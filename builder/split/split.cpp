@@ -38,6 +38,7 @@ struct SnappedBatch {
   static constexpr size_t kSize = 1024;
 
   std::vector<LatticeTriangle> triangles;  // that are kept
+  CutRecords cuts;                         // of those that are cut
   uint64_t outside = 0;                    // dropped since the scene's first triangle
 };
 
@@ -52,11 +53,12 @@ class TriangleStore {
   void add(const SnappedBatch& batch) {
     outside_ = batch.outside;
     for (const LatticeTriangle& triangle : batch.triangles) {
+      const CutRecord* const cut = cut_record_of(triangle, batch.cuts);
       if (bins_) {
-        bins_->add(triangle);
+        bins_->add(triangle, cut);
         continue;
       }
-      tree_->add(triangle);
+      tree_->add(triangle, cut);
       if (tree_->triangles() % kTrianglesPerCheck == 0) spill_if_full();
     }
   }
@@ -80,7 +82,8 @@ class TriangleStore {
     const int depth =
         TriangleBins::depth_for(config_.triangle_bytes, *config_.scratch, grid_, Cube());
     bins_.emplace(grid_, Cube(), depth, config_.scratch->triangles(), config_.scratch);
-    tree_->for_each_triangle([&](const LatticeTriangle& t) { bins_->add(t); });
+    tree_->for_each_triangle(
+        [&](const LatticeTriangle& t) { bins_->add(t, cut_record_of(t, tree_->cuts())); });
     if (config_.on_spill) config_.on_spill(tree_->triangles() + outside_, bins_->bytes());
     tree_.reset();
   }
@@ -102,6 +105,12 @@ void require_different_names(const std::vector<std::string>& paths) {
   }
 }
 
+[[noreturn]] void fail_cut_solid(const TriangleBatch& batch) {
+  fail_usage("the material \"" + std::string(batch.material) +
+             "\" has transparent points, so its surface bounds no solid (--no-cutouts bakes it "
+             "whole)");
+}
+
 }  // namespace
 
 SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config,
@@ -114,12 +123,13 @@ SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config
   Stage<SnappedBatch> storing(config.workers > 1,
                               [&](const SnappedBatch& batch) { store.add(batch); });
   SnappedBatch kept;
-  const auto keep = [&](const LatticeTriangle& triangle) {
-    kept.triangles.push_back(triangle);
+  const auto keep = [&](const LatticeTriangle& triangle, const CutRecord* cut) {
+    kept.triangles.push_back(with_record(triangle, cut, &kept.cuts));
     if (kept.triangles.size() < SnappedBatch::kSize) return;
     kept.outside = counts.outside;
     storing.put(&kept);
     kept.triangles.clear();
+    kept.cuts.clear();
   };
   double largest_move = 0;
   result.layers = SceneLayers(config.content.layers);
@@ -130,10 +140,14 @@ SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config
   counts.scene = scene.stream([&](const TriangleBatch& batch) {
     const Subject subject = layered ? subject_of(result.layers.layer_of(batch)) : kUnionSet;
     const uint32_t sheet = solid ? solid->sheet_of(batch) : 0;
-    for (const Triangle& triangle : batch.triangles) {
+    if (batch.cut != nullptr && solid) fail_cut_solid(batch);
+    const uint32_t material =
+        batch.cut != nullptr ? material_number(*batch.cut, &result.cut_outs) : 0;
+    for (size_t k = 0; k < batch.triangles.size(); ++k) {
+      const Triangle& triangle = batch.triangles[k];
       LatticeTriangle snapped;
       snapped.subject = subject;
-      snapped.sheet = sheet;
+      snapped.sheet = sheet & kSheets;
       double move = 0;
       for (size_t i = 0; i < 3; ++i) snapped.v[i] = lattice.snap(triangle.v[i], &move);
       const BoxPlacement placement = placement_of(snapped, grid, config.part);
@@ -141,12 +155,17 @@ SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config
       counts.clipped += placement == BoxPlacement::kClipped;
       if (solid) solid->add(snapped);
       if (placement == BoxPlacement::kOutside) {
-        if (solid && box_of(snapped).meets(whole)) keep(snapped);
+        if (solid && box_of(snapped).meets(whole)) keep(snapped, nullptr);
         continue;
       }
       counts.degenerate += has_zero_area(snapped);
       largest_move = std::max(largest_move, move);
-      keep(snapped);
+      if (batch.cut == nullptr) {
+        keep(snapped, nullptr);
+      } else {
+        const CutRecord cut = {batch.texture[k], material};
+        keep(snapped, &cut);
+      }
     }
     if (config.on_batch) config.on_batch(batch.triangles.size());
   });

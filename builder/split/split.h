@@ -54,6 +54,7 @@ void visit_count_fields(AnyCounts& counts, const Visit& visit) {
   visit("triangles", counts.scene.triangles);
   visit("quantisation", counts.scene.quantisation);
   visit("invalid", counts.scene.invalid);
+  visit("cut", counts.scene.cut);
   visit("undeformed", counts.scene.undeformed);
   visit_left_out(counts.scene.left_out, visit);
   visit("clipped", counts.clipped);
@@ -71,6 +72,7 @@ struct SplitScene {
   std::vector<TriangleBin> bins;                 // in Morton order, in the scratch's `triangles`
   SceneLayers layers;                            // by the subjects of the triangles
   std::shared_ptr<const CellWindings> windings;  // of the grid; null unless the rule is solid
+  CutOuts cut_outs = {};                         // of materials, by CutRecord::material
 };
 
 SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config,

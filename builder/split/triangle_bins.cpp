@@ -1,6 +1,8 @@
 #include "builder/split/triangle_bins.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <glm/common.hpp>
 
 #include "builder/overlap/overlap.h"
@@ -11,7 +13,7 @@
 namespace svdag {
 namespace {
 
-constexpr size_t kMaxTriangleBytes = 100;  // ten numbers of 10 bytes
+constexpr size_t kMaxTriangleBytes = 110 + sizeof(TextureCorners);  // eleven numbers of 10 bytes
 
 uint8_t* put(int64_t value, uint8_t* out) {
   uint64_t code = uint64_t(value) << 1 ^ uint64_t(value >> 63);
@@ -41,7 +43,7 @@ int TriangleBins::depth_for(uint64_t bytes, const Scratch& scratch, const Grid& 
   return depth;
 }
 
-void TriangleBins::add(const LatticeTriangle& triangle) {
+void TriangleBins::add(const LatticeTriangle& triangle, const CutRecord* cut) {
   const LatticeBox box = box_of(triangle);
   const int shift = Cube{bin_level_, {}}.side_log2(grid_.levels);
   LatticePoint first, last;
@@ -51,22 +53,22 @@ void TriangleBins::add(const LatticeTriangle& triangle) {
     first[a] = std::clamp(first_touched(box.min[a], shift), begin, end);
     last[a] = std::clamp(last_touched(box.max[a], shift), begin, end);
   }
-  if (first == last) return append({bin_level_, first}, triangle, box);
-  deal(triangle, make_setup(triangle), parent_);
+  if (first == last) return append({bin_level_, first}, triangle, cut, box);
+  deal(triangle, cut, make_setup(triangle), parent_);
 }
 
-void TriangleBins::deal(const LatticeTriangle& triangle, const TriangleSetup& setup,
-                        const Cube& cube) {
-  if (cube.level == bin_level_) return append(cube, triangle, setup.box);
+void TriangleBins::deal(const LatticeTriangle& triangle, const CutRecord* cut,
+                        const TriangleSetup& setup, const Cube& cube) {
+  if (cube.level == bin_level_) return append(cube, triangle, cut, setup.box);
   const ListedTriangle entry{&setup, setup.edges};
   const int64_t side = int64_t(1) << cube.side_log2(grid_.levels);
   const ChildOverlap overlap = overlap_children(entry, cube.corner(grid_.levels), side);
   for (unsigned c = 0; c < 8; ++c) {
-    if (overlap.touched >> c & 1) deal(triangle, setup, cube.child(c));
+    if (overlap.touched >> c & 1) deal(triangle, cut, setup, cube.child(c));
   }
 }
 
-void TriangleBins::append(const Cube& cube, const LatticeTriangle& triangle,
+void TriangleBins::append(const Cube& cube, const LatticeTriangle& triangle, const CutRecord* cut,
                           const LatticeBox& box) {
   OpenBin& bin = bins_[morton(cube.coordinate) % bins_.size()];
   if (!bin.writer) {
@@ -80,7 +82,13 @@ void TriangleBins::append(const Cube& cube, const LatticeTriangle& triangle,
   for (int i = 1; i < 3; ++i) {
     for (int a = 0; a < 3; ++a) end = put(triangle.v[size_t(i)][a] - triangle.v[0][a], end);
   }
-  end = put(4 * int64_t(triangle.subject) + triangle.sheet, end);
+  const int64_t kind = 4 * int64_t(triangle.subject) + triangle.sheet;
+  end = put(cut == nullptr ? kind : ~kind, end);
+  if (cut != nullptr) {
+    end = put(cut->material, end);
+    std::memcpy(end, &cut->corners, sizeof cut->corners);
+    end += sizeof cut->corners;
+  }
   bin.writer->append(std::as_bytes(std::span(bytes, size_t(end - bytes))));
   bytes_ += uint64_t(end - bytes);
   ++bin.triangles;
@@ -141,8 +149,9 @@ bool on_lattice(const LatticeTriangle& t) noexcept {
 
 }  // namespace
 
-BinReader::BinReader(SpillFile* file, const TriangleBin& bin, MemoryBudget* budget)
-    : reader_(file, bin.stream, budget), left_(bin.triangles) {}
+BinReader::BinReader(SpillFile* file, const TriangleBin& bin, MemoryBudget* budget,
+                     size_t materials)
+    : reader_(file, bin.stream, budget), left_(bin.triangles), materials_(materials) {}
 
 uint8_t BinReader::read_byte() {
   if (at_ == end_) {
@@ -165,7 +174,22 @@ int64_t BinReader::read_number() {
   return int64_t(code >> 1) ^ -int64_t(code & 1);
 }
 
-bool BinReader::read(size_t max_count, std::vector<LatticeTriangle>* out) {
+CutRecord BinReader::read_cut() {
+  CutRecord record;
+  const int64_t material = read_number();
+  if (material < 0 || uint64_t(material) >= materials_) reader_.fail_damaged();
+  record.material = uint32_t(material);
+  std::array<uint8_t, sizeof(TextureCorners)> bytes;
+  for (uint8_t& byte : bytes) byte = read_byte();
+  std::memcpy(&record.corners, bytes.data(), bytes.size());
+  for (const TexturePoint& p : record.corners) {
+    if (!(std::abs(p.u) < kMaxTextureCoordinate && std::abs(p.v) < kMaxTextureCoordinate))
+      reader_.fail_damaged();
+  }
+  return record;
+}
+
+bool BinReader::read(size_t max_count, std::vector<LatticeTriangle>* out, CutRecords* cuts) {
   if (left_ == 0) return false;
   for (; max_count > 0 && left_ > 0; --max_count, --left_) {
     LatticeTriangle& t = out->emplace_back();
@@ -174,10 +198,14 @@ bool BinReader::read(size_t max_count, std::vector<LatticeTriangle>* out) {
       for (int a = 0; a < 3; ++a)
         t.v[i][a] = int64_t(uint64_t(t.v[0][a]) + uint64_t(read_number()));
     }
-    const int64_t kind = read_number();
+    int64_t kind = read_number();
+    if (kind < 0) {
+      kind = ~kind;
+      t.cut = add_record(read_cut(), cuts) & kMaxCut;
+    }
     if (!on_lattice(t) || kind < 0 || kind > 4 * int64_t(kMaxLayers) + 3) reader_.fail_damaged();
     t.subject = uint32_t(kind >> 2);
-    t.sheet = uint32_t(kind & 3);
+    t.sheet = uint32_t(kind) & kSheets;
   }
   return true;
 }

@@ -13,6 +13,7 @@
 #include "builder/octree/morton.h"
 #include "builder/overlap/triangle_setup.h"
 #include "builder/workspace/scratch.h"
+#include "io/scene/cutouts/cut_records.h"
 #include "io/triangle.h"
 
 namespace svdag {
@@ -35,8 +36,8 @@ class TriangleBins {
   static int depth_for(uint64_t bytes, const Scratch& scratch, const Grid& grid,
                        const Cube& parent);
 
-  // Adds a triangle whose box meets the closed parent.
-  void add(const LatticeTriangle& triangle);
+  // Adds a triangle whose box meets the closed parent. `cut`: its record if it is cut, else null.
+  void add(const LatticeTriangle& triangle, const CutRecord* cut = nullptr);
   // Bytes of all bins so far; a triangle counts in each bin that it meets.
   uint64_t bytes() const { return bytes_; }
   // Returns the bins that hold triangles, in Morton order.
@@ -49,8 +50,10 @@ class TriangleBins {
     LatticeBox box;  // bounding box of the triangles
   };
 
-  void deal(const LatticeTriangle& triangle, const TriangleSetup& setup, const Cube& cube);
-  void append(const Cube& cube, const LatticeTriangle& triangle, const LatticeBox& box);
+  void deal(const LatticeTriangle& triangle, const CutRecord* cut, const TriangleSetup& setup,
+            const Cube& cube);
+  void append(const Cube& cube, const LatticeTriangle& triangle, const CutRecord* cut,
+              const LatticeBox& box);
   Cube shrink(const Cube& cube, const OpenBin& bin) const;
 
   Grid grid_;
@@ -67,17 +70,21 @@ class TriangleBins {
 // from elsewhere.
 class BinReader {
  public:
-  BinReader(SpillFile* file, const TriangleBin& bin, MemoryBudget* budget);
+  // `materials`: that cut triangles may have.
+  BinReader(SpillFile* file, const TriangleBin& bin, MemoryBudget* budget, size_t materials = 0);
 
-  // Appends up to `max_count` further triangles to *out; false at the end.
-  bool read(size_t max_count, std::vector<LatticeTriangle>* out);
+  // Appends up to `max_count` further triangles to *out, and the records of those that are cut to
+  // *cuts; false at the end.
+  bool read(size_t max_count, std::vector<LatticeTriangle>* out, CutRecords* cuts);
 
  private:
   int64_t read_number();
+  CutRecord read_cut();
   uint8_t read_byte();
 
   SpillReader reader_;
   uint64_t left_;
+  size_t materials_;
   const uint8_t* at_ = nullptr;
   const uint8_t* end_ = nullptr;
 };

@@ -46,6 +46,8 @@ void add_scene_choice(CLI::App* app, SceneConfig* scene) {
          "The animation of these times: its name, #NUMBER from 0, or all")
       ->type_name("NAME");
   app->add_flag("--hidden", scene->hidden, "Include nodes that the file hides");
+  app->add_flag("--no-cutouts{false}", scene->cut_outs,
+                "Take triangles whole whose material has transparent points (alphaMode MASK)");
   app->add_flag("--skip-invalid", scene->skip_invalid,
                 "Drop triangles with NaN or infinite coordinates");
 }

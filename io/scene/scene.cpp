@@ -49,10 +49,16 @@ class FiniteFilter {
     if (bad == batch.triangles.end()) return pass(batch);
     if (!config_.skip_invalid) refuse(batch, batch.first + size_t(bad - batch.triangles.begin()));
     kept_.clear();
-    std::copy_if(batch.triangles.begin(), batch.triangles.end(), std::back_inserter(kept_), finite);
+    texture_.clear();
+    for (size_t i = 0; i < batch.triangles.size(); ++i) {
+      if (!finite(batch.triangles[i])) continue;
+      kept_.push_back(batch.triangles[i]);
+      if (batch.cut != nullptr) texture_.push_back(batch.texture[i]);
+    }
     counts_->invalid += batch.triangles.size() - kept_.size();
     TriangleBatch kept = batch;
     kept.triangles = kept_;
+    kept.texture = texture_;
     pass(kept);
   }
 
@@ -63,6 +69,7 @@ class FiniteFilter {
     batch.frame = frame_;
     if (config_.only && part_name(batch, config_.only->first) != config_.only->second) return;
     counts_->triangles += batch.triangles.size();
+    if (batch.cut != nullptr) counts_->cut += batch.triangles.size();
     if (batch.undeformed) counts_->undeformed += batch.triangles.size();
     counts_->quantisation = std::max(counts_->quantisation, batch.quantisation);
     if (!batch.triangles.empty()) sink_(batch);
@@ -81,6 +88,7 @@ class FiniteFilter {
   const TriangleSink& sink_;
   SceneCounts* counts_;
   std::vector<Triangle> kept_;
+  std::vector<TextureCorners> texture_;
 };
 
 // A sink that passes triangles on in the world, the outside of a mesh still outside.
@@ -100,6 +108,11 @@ class ToWorld {
     }
     TriangleBatch placed = batch;
     placed.triangles = placed_;
+    if (mirror_ && batch.cut != nullptr) {
+      texture_.assign(batch.texture.begin(), batch.texture.end());
+      for (TextureCorners& corners : texture_) std::swap(corners[1], corners[2]);
+      placed.texture = texture_;
+    }
     placed.quantisation *= stretch_;
     sink_(placed);
   }
@@ -110,6 +123,7 @@ class ToWorld {
   double stretch_;
   const TriangleSink& sink_;
   std::vector<Triangle> placed_;
+  std::vector<TextureCorners> texture_;
 };
 
 // Appends "--include 'sky*'" for patterns that matched nothing; if not `allowed`, an Error.
@@ -133,7 +147,8 @@ Scene::Scene(SceneConfig config, MemoryBudget* budget, const SpillSpace* spill)
     : config_(std::move(config)),
       budget_(budget),
       spill_(spill),
-      images_(budget, config_.sandbox) {}
+      images_(budget, config_.sandbox),
+      alpha_(budget, config_.sandbox) {}
 
 const File& Scene::content_of(const File& packed) const {
   if (!is_gzip(packed)) return packed;
@@ -174,6 +189,7 @@ LeftOut Scene::read_pose(const PoseTime* time, std::string_view frame, const Nam
                         time};
     double unit = 0;
     options.unit_metres = &unit;
+    options.alpha = config_.cut_outs ? &alpha_ : nullptr;
     if (time != nullptr && detect_format(file).read != read_gltf)
       fail_usage(path + (frame.empty() ? ": --time" : ": --frames") +
                  ": svdag follows only animations of glTF");
@@ -275,7 +291,8 @@ void Scene::visit_files(const VisitFile& visit) const {
     visit(file);
     const SceneFormat& format = detect_format(file);
     if (format.visit_beside != nullptr)
-      format.visit_beside(content_of(file), {budget_, config_.colours, config_.allow_outside},
+      format.visit_beside(content_of(file),
+                          {budget_, config_.colours, config_.allow_outside, config_.cut_outs},
                           visit);
   }
 }

@@ -9,6 +9,7 @@
 
 #include "io/affine.h"
 #include "io/dag/format.h"
+#include "io/scene/cutouts/alpha_images.h"
 #include "io/scene/decoders/image.h"
 #include "io/scene/frame_range.h"
 #include "io/scene/mesh/mesh_reader.h"
@@ -35,6 +36,7 @@ struct SceneConfig {
   std::optional<double> time = {};  // --time
   FrameRange frames = {};           // --frames: the triangles at all these times; instead of time
   std::string animation = "all";    // --animation, as in PoseTime
+  bool cut_outs = true;             // what is transparent of materials is cut out
   bool colours = false;             // of materials are read, and the files that hold them
   // For judges: if given, only the triangles of the part of this kind and name.
   std::optional<std::pair<PartKind, std::string>> only = {};
@@ -44,12 +46,13 @@ struct SceneConfig {
 };
 
 struct SceneCounts {
-  uint64_t triangles = 0;   // passed to the sink
-  double quantisation = 0;  // largest step that positions were stored in, in world units
-  uint64_t invalid = 0;     // dropped: a coordinate was NaN or infinite
-  uint64_t undeformed = 0;  // as stored, though a skin or morph targets deform their mesh
-  LeftOut left_out;         // by the readers; of frames, by each
-  std::vector<double> units;               // in metres, each once: those that files state
+  uint64_t triangles = 0;     // passed to the sink
+  double quantisation = 0;    // largest step that positions were stored in, in world units
+  uint64_t invalid = 0;       // dropped: a coordinate was NaN or infinite
+  uint64_t cut = 0;           // of materials of which transparent points are cut out
+  uint64_t undeformed = 0;    // as stored, though a skin or morph targets deform their mesh
+  LeftOut left_out;           // by the readers; of frames, by each
+  std::vector<double> units;  // in metres, each once: those that files state
   std::vector<std::string> unmatched;      // "--include 'sky*'": with allow_unmatched
   std::vector<std::string> unread_images;  // "PATH: why": with colours
 };
@@ -95,6 +98,7 @@ class Scene {
   const SpillSpace* spill_;
   mutable std::map<std::string, File> unpacked_;  // by path
   mutable ImageMeans images_;
+  mutable AlphaImages alpha_;
 };
 
 }  // namespace svdag

@@ -7,6 +7,7 @@
 #include "io/scene/decoders/gzip.h"
 #include "io/scene/gltf/gltf_animation.h"
 #include "io/scene/gltf/gltf_buffers.h"
+#include "io/scene/gltf/gltf_cut_out.h"
 #include "io/scene/gltf/gltf_images.h"
 #include "io/scene/gltf/tile.h"
 #include "io/scene/readers/mtl.h"
@@ -52,8 +53,10 @@ void visit_mtl_files(const File& content, const BesideOptions& options, const Vi
 void visit_gltf_files(const File& content, const BesideOptions& options, const VisitFile& visit) {
   const Tile tile(content, options.budget);
   if (tile.beside() != nullptr) visit(*tile.beside());
-  const GltfDocument document =
+  GltfDocument document =
       load_gltf(tile.gltf_file(), options.budget, {.images = options.colours}, tile.gltf_bytes());
+  if (options.cut_outs && !options.colours && has_mask(document))
+    document = load_gltf(tile.gltf_file(), options.budget, {.images = true}, tile.gltf_bytes());
   for (const File& buffer : GltfBuffers(document, options.budget).files()) visit(buffer);
   for (const File& image : image_files(document)) visit(image);
 }

@@ -17,6 +17,7 @@ struct BesideOptions {
   MemoryBudget* budget = nullptr;
   bool colours = false;
   bool allow_outside = false;  // as in ReadOptions
+  bool cut_outs = false;
 };
 using VisitBeside = void (*)(const File& content, const BesideOptions& options,
                              const VisitFile& visit);

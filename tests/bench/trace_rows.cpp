@@ -221,7 +221,7 @@ std::vector<FloatTriangle> load(const char* path, const Grid& grid, const Vec3& 
   config.paths = {path};
   MemoryBudget budget;
   std::vector<FloatTriangle> triangles;
-  stream_snapped(Scene(config, &budget), grid,
+  stream_snapped(Scene(config, &budget), grid, nullptr,
                  [&](std::span<const LatticeTriangle> batch, const TriangleBatch&) {
                    for (const LatticeTriangle& lattice : batch) {
                      const VoxelTriangle t = in_voxels(lattice, grid.fraction());

@@ -34,7 +34,7 @@ SCENES = {
     "gltf_khr_meshopt.gltf": (12, CUBE, {}),
     "gltf_khr_meshopt_v1.gltf": (912, [-100, -100, -100, 100, 100, 100], {}),
     "gltf_khr_meshopt_v1_bytes.gltf": (912, [-100, -100, -100, 100, 100, 100], {}),
-    "gltf_mask_all_transparent.gltf": (12, CUBE, {"cut_outs": 1}),
+    "gltf_mask_all_transparent.gltf": (12, CUBE, {}),
     "gltf_draco_int16_normalized.gltf": (12, CUBE, {}),
     "gltf_draco_int16.gltf": (12, [0, 0, 0, 32767, 32767, 32767], {}),
     "dae_colour_with_space.dae": (12, CUBE, {}),

@@ -33,11 +33,11 @@ struct Judgement : SceneFacts {
 };
 
 std::vector<LatticeTriangle> load(const Scene& scene, const DagFile& file, uint64_t count,
-                                  LayerKind layer, SnapCounts* snapped) {
+                                  LayerKind layer, SnapCounts* snapped, CutScene* cuts) {
   std::vector<LatticeTriangle> triangles;
   triangles.reserve(count);
   *snapped = stream_snapped(
-      scene, file.grid(),
+      scene, file.grid(), cuts,
       [&](std::span<const LatticeTriangle> batch, const TriangleBatch&) {
         triangles.insert(triangles.end(), batch.begin(), batch.end());
       },
@@ -50,14 +50,18 @@ void compare_whole(JudgedScene& judged, const DagFile& file, const JudgeChoice& 
   const uint64_t count = result->counts.triangles;
   if (count > UINT32_MAX)
     fail_usage("the scene has more than 2^32 triangles: compare a part of it with --sample");
-  const auto reservation =
-      judged.budget.reserve(count * sizeof(LatticeTriangle), "snapped triangles");
+  const auto reservation = judged.budget.reserve(
+      count * sizeof(LatticeTriangle) + result->counts.cut * sizeof(CutRecord),
+      "snapped triangles");
   judged.progress.phase("reading the scene", 0);
   SnapCounts snapped;
+  CutScene cuts;
+  JudgeChoice chosen = choice;
+  chosen.cuts = &cuts;
   const std::vector<LatticeTriangle> triangles =
-      load(judged.scene, file, count, LayerKind::kNone, &snapped);
+      load(judged.scene, file, count, LayerKind::kNone, &snapped, &cuts);
   Comparison& comparison = result->comparison;
-  comparison = compare_all(file.view(), file.grid(), triangles, choice, executor, judged.progress);
+  comparison = compare_all(file.view(), file.grid(), triangles, chosen, executor, judged.progress);
   judge_header(file, comparison.file_voxels, snapped, &result->grid);
 }
 
@@ -78,7 +82,8 @@ void judge_names(const Scene& scene, const LayerTable& table, GridJudgement* gri
 Comparison judge_layer(const MeshConfig& config, const JudgeChoice& all, const DagFile& file,
                        size_t layer, JudgedScene& judged, Executor& executor) {
   const Layer& entry = file.layers().layers[layer];
-  const JudgeChoice choice{all.kind, all.rule, file.layers().kind};
+  CutScene cuts;
+  const JudgeChoice choice{all.kind, all.rule, file.layers().kind, &cuts};
   SceneConfig only = judged.scene.config();
   only.only = {part_of(file.layers().kind), entry.name};
   const Scene scene(only, &judged.budget);
@@ -90,7 +95,8 @@ Comparison judge_layer(const MeshConfig& config, const JudgeChoice& all, const D
         .comparison;
   }
   SnapCounts snapped;
-  const std::vector<LatticeTriangle> triangles = load(scene, file, 0, choice.layer, &snapped);
+  const std::vector<LatticeTriangle> triangles =
+      load(scene, file, 0, choice.layer, &snapped, &cuts);
   Comparison comparison =
       compare_all(dag, file.grid(), triangles, choice, executor, judged.progress);
   if (comparison.file_voxels != entry.voxels)

@@ -37,7 +37,7 @@ std::vector<LatticeTriangle> load_near(const Scene& scene, const Grid& grid,
                                        MemoryBudget::Reservation* held, SnapCounts* snapped) {
   std::vector<LatticeTriangle> near;
   *snapped = stream_snapped(
-      scene, grid, [&](std::span<const LatticeTriangle> batch, const TriangleBatch&) {
+      scene, grid, nullptr, [&](std::span<const LatticeTriangle> batch, const TriangleBatch&) {
         for (const LatticeTriangle& t : batch) {
           bool keep = all;
           for (uint64_t i = 0; !keep && i < windows.size(); ++i)

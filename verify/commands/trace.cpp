@@ -58,7 +58,7 @@ uint64_t load_triangles(TriangleTracer* tracer, JudgedScene* judged, const Grid&
   const LatticeBox selection = grid.closed(grid.selection);
   uint64_t near = 0;
   judged->progress.phase("reading the scene", 0);
-  stream_snapped(judged->scene, grid,
+  stream_snapped(judged->scene, grid, nullptr,
                  [&](std::span<const LatticeTriangle> triangles, const TriangleBatch& batch) {
                    for (const LatticeTriangle& t : triangles) near += selection.meets(box_of(t));
                    tracer->add(triangles, grid.fraction());

@@ -8,7 +8,8 @@
 // (judge_cells.h), so each detects errors of the other. Both judge every rule
 // (docs/accuracy.md); for the solid rules they judge which voxels are touched, and how a triangle
 // changes winding numbers, which decide about the others (verify/sample/solid.h). A judge reuses
-// scratch memory: one per thread.
+// scratch memory: one per thread. Voxels of a cut-out triangle are judged one by one
+// (io/scene/cutouts/cut_triangle.h), without what the builder knows of cubes and bricks.
 #pragma once
 
 #include <memory>
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "io/dag/format.h"
+#include "io/scene/cutouts/cut_records.h"
 #include "verify/judge/centre_lines.h"
 #include "verify/judge/clip_judge.h"
 
@@ -46,6 +48,7 @@ struct JudgeChoice {
   Kind kind = Kind::kInteger;
   Rule rule = Rule::kConservative;
   LayerKind layer = LayerKind::kNone;  // the scene is one layer of this kind; kNone: all of it
+  const CutScene* cuts = nullptr;      // of the triangles; null: all are whole
 };
 
 // kCgal in a build without CGAL is an Error (kUsage).

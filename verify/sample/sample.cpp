@@ -94,7 +94,10 @@ uint64_t BrickSample::count_wrong(const DagView& dag, const std::vector<uint64_t
 SampleComparison compare_sample(const Scene& scene, const DagView& dag, const Grid& grid,
                                 uint64_t count, uint64_t seed, const JudgeChoice& choice,
                                 Executor& executor, Progress& progress) {
-  const std::vector<std::unique_ptr<Judge>> judges = make_judges(choice, executor.workers());
+  CutScene cuts;
+  JudgeChoice chosen = choice;
+  chosen.cuts = &cuts;
+  const std::vector<std::unique_ptr<Judge>> judges = make_judges(chosen, executor.workers());
   progress.phase("drawing bricks", 0);
   const BrickDraw draw = draw_bricks(scene, dag, grid, choice.rule, count, seed);
   std::vector<uint64_t> codes = draw.all();
@@ -116,10 +119,11 @@ SampleComparison compare_sample(const Scene& scene, const DagView& dag, const Gr
                       });
     progress.advance(gathered.size());
     gathered.clear();
+    cuts.records.clear();
   };
   progress.phase("judging triangles", 0);
   stream_snapped(
-      scene, grid,
+      scene, grid, &cuts,
       [&](std::span<const LatticeTriangle> batch, const TriangleBatch&) {
         gathered.insert(gathered.end(), batch.begin(), batch.end());
         if (gathered.size() >= kBatchTriangles) flush();

@@ -161,28 +161,35 @@ SceneDraw draw_scene(const Scene& scene, const Grid& grid, uint64_t count, Rando
   if (grid.selection.empty()) return result;
   const LatticeBox selection = grid.closed(grid.selection);
   std::array<MeasureDraws, kMeasures> draws;
-  stream_snapped(scene, grid, [&](std::span<const LatticeTriangle> batch, const TriangleBatch&) {
-    for (const LatticeTriangle& t : batch) {
-      if (!selection.meets(box_of(t))) continue;
-      ++result.near;
-      const ClippedTriangle clipped(t, grid);
-      for (size_t m = 0; m < kMeasures; ++m) draws[m].total += clipped.weight(Measure(m));
-    }
-  });
+  CutScene cuts;  // drawn from whole
+  stream_snapped(scene, grid, &cuts,
+                 [&](std::span<const LatticeTriangle> batch, const TriangleBatch&) {
+                   cuts.records.clear();
+                   for (const LatticeTriangle& t : batch) {
+                     if (!selection.meets(box_of(t))) continue;
+                     ++result.near;
+                     const ClippedTriangle clipped(t, grid);
+                     for (size_t m = 0; m < kMeasures; ++m)
+                       draws[m].total += clipped.weight(Measure(m));
+                   }
+                 });
   draw_positions(&draws, count, random);
-  stream_snapped(scene, grid, [&](std::span<const LatticeTriangle> batch, const TriangleBatch&) {
-    for (const LatticeTriangle& t : batch) {
-      if (!selection.meets(box_of(t))) continue;
-      const ClippedTriangle clipped(t, grid);
-      for (size_t m = 0; m < kMeasures; ++m) {
-        MeasureDraws& drawn = draws[m];
-        drawn.passed += clipped.weight(Measure(m));
-        for (; drawn.next < drawn.positions.size() && drawn.positions[drawn.next] < drawn.passed;
-             ++drawn.next)
-          result.codes[m].push_back(clipped.draw(Measure(m), random));
-      }
-    }
-  });
+  stream_snapped(
+      scene, grid, &cuts, [&](std::span<const LatticeTriangle> batch, const TriangleBatch&) {
+        cuts.records.clear();
+        for (const LatticeTriangle& t : batch) {
+          if (!selection.meets(box_of(t))) continue;
+          const ClippedTriangle clipped(t, grid);
+          for (size_t m = 0; m < kMeasures; ++m) {
+            MeasureDraws& drawn = draws[m];
+            drawn.passed += clipped.weight(Measure(m));
+            for (;
+                 drawn.next < drawn.positions.size() && drawn.positions[drawn.next] < drawn.passed;
+                 ++drawn.next)
+              result.codes[m].push_back(clipped.draw(Measure(m), random));
+          }
+        }
+      });
   return result;
 }
 

@@ -28,8 +28,8 @@ bool follows_from(const Grid& grid, const Box& bounds) {
 
 }  // namespace
 
-SnapCounts stream_snapped(const Scene& scene, const Grid& grid, const SnappedSink& sink, Rule rule,
-                          LayerKind layer) {
+SnapCounts stream_snapped(const Scene& scene, const Grid& grid, CutScene* cuts,
+                          const SnappedSink& sink, Rule rule, LayerKind layer) {
   const Lattice lattice(grid);
   OpenParts open;
   if (is_solid(rule))
@@ -40,7 +40,14 @@ SnapCounts stream_snapped(const Scene& scene, const Grid& grid, const SnappedSin
   std::vector<LatticeTriangle> snapped;
   counts.scene = scene.stream([&](const TriangleBatch& batch) {
     snapped.clear();
-    for (const Triangle& t : batch.triangles) {
+    if (batch.cut != nullptr && cuts == nullptr)
+      fail_usage("the material \"" + std::string(batch.material) +
+                 "\" is cut out, which only mesh --judge integer and cgal judge (--no-cutouts "
+                 "judges a bake with it whole)");
+    const uint32_t material =
+        batch.cut != nullptr ? material_number(*batch.cut, &cuts->cut_outs) : 0;
+    for (size_t k = 0; k < batch.triangles.size(); ++k) {
+      const Triangle& t = batch.triangles[k];
       LatticeTriangle q;
       q.sheet = open.contains(batch);
       double move = 0;
@@ -49,7 +56,10 @@ SnapCounts stream_snapped(const Scene& scene, const Grid& grid, const SnappedSin
       if (box.meets(selection)) counts.largest_move = std::max(counts.largest_move, move);
       const bool meets = whole.meets(box);
       counts.outside += !meets;
-      if (meets || is_solid(rule)) snapped.push_back(q);
+      if (!meets && !is_solid(rule)) continue;
+      if (batch.cut != nullptr)
+        q.cut = add_record({batch.texture[k], material}, &cuts->records) & kMaxCut;
+      snapped.push_back(q);
     }
     if (!snapped.empty()) sink(snapped, batch);
   });

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/grid.h"
+#include "io/scene/cutouts/cut_records.h"
 #include "io/scene/scene.h"
 
 namespace svdag {
@@ -22,9 +23,11 @@ using SnappedSink = std::function<void(std::span<const LatticeTriangle>, const T
 
 // Passes every triangle of `scene` whose box meets the closed grid to the sink, in batches; for the
 // solid rules, whose winding numbers need them, all triangles, and triangles of open parts as
-// sheets. `layer`: the scene is one layer of this kind, unless kNone.
-SnapCounts stream_snapped(const Scene& scene, const Grid& grid, const SnappedSink& sink,
-                          Rule rule = Rule::kConservative, LayerKind layer = LayerKind::kNone);
+// sheets. `layer`: the scene is one layer of this kind, unless kNone. *cuts gets the records of
+// those that are cut out; null: such a scene is an Error (kUsage).
+SnapCounts stream_snapped(const Scene& scene, const Grid& grid, CutScene* cuts,
+                          const SnappedSink& sink, Rule rule = Rule::kConservative,
+                          LayerKind layer = LayerKind::kNone);
 
 // The result of comparing the file's grid with the scene's bounds.
 struct GridJudgement {

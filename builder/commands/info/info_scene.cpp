@@ -112,6 +112,7 @@ void print_json(const InfoCommand& config, const Box& box, const SceneCounts& co
   Json json = {{"scene", config.scene.paths},
                {"triangles", stats.triangles},
                {"invalid", counts.invalid},
+               {"cut", counts.cut},
                {"undeformed", counts.undeformed},
                {"left_out", left_out_json(counts.left_out)},
                {"units", counts.units},
@@ -163,8 +164,7 @@ void print_text(const InfoCommand& config, const Box& box, const SceneCounts& co
               format_count(stats.triangles).c_str(), format_count(stats.positions).c_str(),
               format_count(stats.components).c_str());
   std::printf("  bounds %s .. %s\n", format_point(box.min).c_str(), format_point(box.max).c_str());
-  for (const double unit : counts.units)
-    std::printf("  unit %s m\n", format_double(unit).c_str());
+  for (const double unit : counts.units) std::printf("  unit %s m\n", format_double(unit).c_str());
   std::printf(
       "  %s triangles of zero area, %s of them with two equal corners; %s repeated triangles\n",
       format_count(stats.zero_area).c_str(), format_count(stats.repeated).c_str(),

@@ -15,9 +15,10 @@ Receipt bake_shard(const Plan& plan, const PlanStep& step, const StepConfig& con
                    const std::string& output, Executor* executor, Progress* progress) {
   SpillFile triangles(File::open_read(plan.path(kPlanTriangles)), plan.block_bytes, 0,
                       ExitCode::kBadInput);
-  const ReadySplit ready = {
-      plan.description, plan.grid,   plan.counts,  bins_of(plan.bins, step.cells, plan.grid.levels),
-      &triangles,       plan.layers, plan.windings};
+  const ReadySplit ready = {plan.description, plan.grid,
+                            plan.counts,      bins_of(plan.bins, step.cells, plan.grid.levels),
+                            &triangles,       plan.layers,
+                            plan.windings,    plan.cut_outs};
   BuildConfig build;
   static_cast<ContentOptions&>(build) = plan.content;
   build.ready = &ready;

@@ -21,7 +21,8 @@ class LeafBinner {
       return;
     }
     TriangleBins bins = bins_below(Cube(), scene->tree->triangles());
-    scene->tree->for_each_triangle([&](const LatticeTriangle& t) { bins.add(t); });
+    scene->tree->for_each_triangle(
+        [&](const LatticeTriangle& t) { bins.add(t, cut_record_of(t, scene->tree->cuts())); });
     scene->tree.reset();
     divide_all(bins.finish());
   }
@@ -53,7 +54,8 @@ class LeafBinner {
     std::vector<TriangleBin> parts;
     {
       TriangleBins bins = bins_below(made_for, bin.triangles);
-      read(from, bin, [&](const LatticeTriangle& triangle) { bins.add(triangle); });
+      read(from, bin,
+           [&](const LatticeTriangle& triangle, const CutRecord* cut) { bins.add(triangle, cut); });
       parts = bins.finish();
     }
     uint64_t copies = 0;
@@ -73,11 +75,13 @@ class LeafBinner {
 
   template <class Visit>
   void read(SpillFile* from, const TriangleBin& bin, const Visit& visit) {
-    BinReader reader(from, bin, scratch_->budget());
+    BinReader reader(from, bin, scratch_->budget(), SIZE_MAX);
     std::vector<LatticeTriangle> triangles;
-    for (; reader.read(kBatch, &triangles); triangles.clear()) {
+    CutRecords cuts;
+    for (; reader.read(kBatch, &triangles, &cuts); triangles.clear(), cuts.clear()) {
       check_interrupt();
-      for (const LatticeTriangle& triangle : triangles) visit(triangle);
+      for (const LatticeTriangle& triangle : triangles)
+        visit(triangle, cut_record_of(triangle, cuts));
     }
   }
 

@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kPlanJson = "plan.json";
-constexpr int kFormat = 7;  // changes with the keys of plan.json and the contents of the index
+constexpr int kFormat = 8;  // changes with the keys of plan.json and the contents of the index
 
 constexpr size_t kHashDigits = 32;
 

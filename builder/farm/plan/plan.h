@@ -64,6 +64,7 @@ struct Plan {
   size_t block_bytes = 0;
   std::vector<TriangleBin> bins;
   SceneLayers layers;
+  CutOuts cut_outs;
   std::shared_ptr<const CellWindings> windings;  // null unless the rule is solid
 
   size_t shards() const;

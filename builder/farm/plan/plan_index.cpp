@@ -39,6 +39,7 @@ std::string save_index(const Plan& plan) {
   put_bins(plan.bins, &record);
   put_layers(plan.layers, &record);
   put_windings(plan.windings.get(), &record);
+  put_cut_outs(plan.cut_outs, &record);
   put_content(plan.content, &record);
   AtomicFile file(plan.path(kIndex));
   file.append(record.bytes());
@@ -60,6 +61,7 @@ void load_index(const std::string& hash, Plan* plan) {
   plan->bins = get_bins(&in, plan->grid.levels);
   plan->layers = get_layers(&in);
   plan->windings = get_windings(&in, plan->grid.levels);
+  plan->cut_outs = get_cut_outs(&in);
   in.require((plan->windings != nullptr) == is_solid(plan->content.rule),
              "winding numbers do not fit the rule");
   plan->content.layers = plan->layers.kind();

@@ -130,6 +130,12 @@ void Planner::read_scene() {
   inputs_.check();
   plan_.counts = scene.counts;
   plan_.layers = scene.layers;
+  for (const CutOut& cut : scene.cut_outs) {  // copies, since the plan outlives the budget
+    const AlphaImage& image = *cut.image;
+    plan_.cut_outs.push_back(cut);
+    plan_.cut_outs.back().image =
+        std::make_shared<AlphaImage>(image.width(), image.height(), image.texels());
+  }
   if (scene.windings)  // a copy, since the plan outlives the budget
     plan_.windings = CellWindings::of_grid(plan_.grid.levels, scene.windings->entries());
   if (scene.counts.scene.triangles == 0) scene_.fail_empty(scene.counts.scene);

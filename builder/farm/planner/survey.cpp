@@ -72,9 +72,10 @@ bool Survey::count(SpillFile* file, const TriangleBin& bin, const CellFilter& fi
   const int shift = fine_.levels + fine_.fraction() - grid_.levels - grid_.fraction();
   const Cube root = ancestor(bin.cube, std::min(bin.cube.level, cell_level_));
   CellTree tree(grid_, root, cell_level_, budget_);
-  BinReader reader(file, bin, budget_);
+  BinReader reader(file, bin, budget_, SIZE_MAX);
   std::vector<LatticeTriangle> triangles;
-  for (; reader.read(kSurveyBatch, &triangles); triangles.clear()) {
+  CutRecords cuts;  // estimated whole
+  for (; reader.read(kSurveyBatch, &triangles, &cuts); triangles.clear(), cuts.clear()) {
     check_interrupt();
     for (const LatticeTriangle& triangle : triangles) tree.add(shifted(triangle, shift));
     if (tree.bytes(1) > config_.triangle_bytes) return false;

@@ -68,16 +68,26 @@ LinearColour mean_of(std::span<const stbi_uc> texels, size_t channels, bool by_a
   return mean;
 }
 
-ImageMean decode(const ImageSource& source) {
+struct Texels {
+  std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> owned;
+  ImageSize size;
+  size_t channels;
+
+  std::span<const stbi_uc> all() const { return {owned.get(), size_t(size.texels()) * channels}; }
+};
+
+Texels decode(const ImageSource& source) {
   ImageSize size;
   int channels = 0;
-  const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> texels(
-      stbi_load_from_memory(data_of(source), int(source.bytes.size()), &size.width, &size.height,
-                            &channels, 0),
-      &stbi_image_free);
-  if (!texels) fail(source);
-  const std::span all(texels.get(), size_t(size.texels()) * size_t(channels));
-  return {mean_of(all, size_t(channels), channels % 2 == 0), mean_of(all, size_t(channels), false)};
+  Texels texels{{stbi_load_from_memory(data_of(source), int(source.bytes.size()), &size.width,
+                                       &size.height, &channels, 0),
+                 &stbi_image_free},
+                size,
+                size_t(channels)};
+  if (!texels.owned) fail(source);
+  texels.size = size;
+  texels.channels = size_t(channels);
+  return texels;
 }
 
 // What work() returns in a limited child.
@@ -98,7 +108,16 @@ void check_image_bytes(uint64_t bytes, const std::string& path) {
   if (bytes > kMaxImageBytes) fail_input(path, "is an image of more than 1 GiB, which is not read");
 }
 
-ImageMean mean_of_image(const ImageSource& source, MemoryBudget* budget) {
+namespace {
+
+// An image whose head was read, and what its texels need.
+struct CheckedImage {
+  ImageSize size;
+  MemoryBudget::Reservation memory;
+  DecoderLimits limits;
+};
+
+CheckedImage check_image(const ImageSource& source, MemoryBudget* budget) {
   check_image_bytes(source.bytes.size(), source.path);
   const uint64_t seconds = 30 + source.bytes.size() / 65536;
   const ImageSize size =
@@ -109,15 +128,49 @@ ImageMean mean_of_image(const ImageSource& source, MemoryBudget* budget) {
                                 std::to_string(size.height) + " texels, more than " +
                                 std::to_string(kMaxImageSide) + " a side");
   const uint64_t bytes = kBytesPerTexel * size.texels() + 2 * source.bytes.size();
-  const auto memory = budget->reserve(bytes, "texels of a texture");
-  const ImageMean mean =
-      in_child<ImageMean>(source, {kBesideTexels + bytes, seconds + (size.texels() >> 20)},
-                          [&] { return decode(source); });
+  return {size,
+          budget->reserve(bytes, "texels of a texture"),
+          {kBesideTexels + bytes, seconds + (size.texels() >> 20)}};
+}
+
+}  // namespace
+
+ImageMean mean_of_image(const ImageSource& source, MemoryBudget* budget) {
+  const CheckedImage image = check_image(source, budget);
+  const ImageMean mean = in_child<ImageMean>(source, image.limits, [&] {
+    const Texels texels = decode(source);
+    return ImageMean{mean_of(texels.all(), texels.channels, texels.channels % 2 == 0),
+                     mean_of(texels.all(), texels.channels, false)};
+  });
   for (const LinearColour& one : {mean.visible, mean.all}) {
     if (std::ranges::any_of(one.units, [](uint64_t units) { return units > kWhiteUnits; }))
       fail_input(source.path, "its decoder sent an invalid block");
   }
   return mean;
+}
+
+AlphaTexels alpha_of_image(const ImageSource& source, MemoryBudget* budget) {
+  const CheckedImage image = check_image(source, budget);
+  AlphaTexels texels{image.size.width, image.size.height, {}};
+  const uint64_t count = image.size.texels();
+  texels.alpha.reserve(size_t(count));
+  run_decoder(
+      image.limits, source.path, source.sandbox,
+      [&](DecoderOutput& out) {
+        const Texels decoded = decode(source);
+        const size_t channels = decoded.channels;
+        std::vector<uint8_t> alpha(size_t(decoded.size.texels()), 255);
+        for (size_t i = 0; channels % 2 == 0 && i < alpha.size(); ++i)
+          alpha[i] = decoded.all()[(i + 1) * channels - 1];
+        out.send(0, std::span<const uint8_t>(alpha));
+      },
+      [&](const DecoderMessage& message) {
+        const auto part = message.records<uint8_t>();
+        if (part.size() > count - texels.alpha.size()) message.fail();
+        texels.alpha.insert(texels.alpha.end(), part.begin(), part.end());
+      });
+  if (texels.alpha.size() != count) fail_input(source.path, "its decoder sent too little");
+  return texels;
 }
 
 std::optional<ImageMean> ImageMeans::mean(const std::string& name, const Read& read) {
@@ -140,14 +193,14 @@ void ImageMeans::note(const std::string& text) {
 
 std::optional<ImageMean> ImageMeans::mean_of_file(const std::string& path) {
   return mean(path, [&](MemoryBudget::Reservation* memory) {
-    return bytes_of(File::open_read(path), memory);
+    return bytes_of_image(File::open_read(path), budget_, memory);
   });
 }
 
-std::vector<std::byte> ImageMeans::bytes_of(const File& file,
-                                            MemoryBudget::Reservation* memory) const {
+std::vector<std::byte> bytes_of_image(const File& file, MemoryBudget* budget,
+                                      MemoryBudget::Reservation* memory) {
   check_image_bytes(file.size(), file.path());
-  *memory = budget_->reserve(file.size(), "textures");
+  *memory = budget->reserve(file.size(), "textures");
   std::vector<std::byte> bytes(size_t(file.size()));
   file.read_at(0, bytes);
   return bytes;

@@ -1,4 +1,4 @@
-// The mean colour of a PNG or JPEG image. Only image.cpp uses the stb_image library.
+// The mean colour, or the alpha, of a PNG or JPEG image. Only image.cpp uses the stb_image library.
 //
 // The image is decoded in a limited child process: first its head, then, in memory that depends
 // only on its size, its texels. So a smaller budget is an Error or makes no difference. Rejected:
@@ -33,6 +33,10 @@ constexpr uint64_t kMaxImageBytes = uint64_t(1) << 30;  // of the file
 // Error (kBadInput) if a file of `bytes` is too large for an image.
 void check_image_bytes(uint64_t bytes, const std::string& path);
 
+// The bytes of an image file, reserved in *memory.
+std::vector<std::byte> bytes_of_image(const File& file, MemoryBudget* budget,
+                                      MemoryBudget::Reservation* memory);
+
 // Means of the texels of an image in linear light.
 struct ImageMean {
   LinearColour visible;  // weighted by alpha, unless that is zero everywhere
@@ -42,6 +46,14 @@ struct ImageMean {
 // Of 16 bits a channel, the upper eight count. An image that is broken, too large or of another
 // format is an Error (kBadInput).
 ImageMean mean_of_image(const ImageSource& source, MemoryBudget* budget);
+
+// The alpha of the texels, row by row from the top; 255 in an image without alpha.
+struct AlphaTexels {
+  int width = 0, height = 0;
+  std::vector<uint8_t> alpha;
+};
+// Errors as above.
+AlphaTexels alpha_of_image(const ImageSource& source, MemoryBudget* budget);
 
 // The mean colours of the images that materials name. Each image is read once, for all passes over
 // a scene.
@@ -57,8 +69,6 @@ class ImageMeans {
   std::optional<ImageMean> mean(const std::string& name, const Read& read);
   // Of an image file.
   std::optional<ImageMean> mean_of_file(const std::string& path);
-  // The bytes of an image file.
-  std::vector<std::byte> bytes_of(const File& file, MemoryBudget::Reservation* memory) const;
 
   MemoryBudget* budget() const { return budget_; }
   // "PATH: what is wrong", of each image without a mean and each file that was left out.

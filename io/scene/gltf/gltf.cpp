@@ -9,12 +9,14 @@
 // is exact.
 #include <algorithm>
 #include <array>
+#include <map>
 #include <utility>
 #include <vector>
 
 #include "io/scene/gltf/gltf_animation.h"
 #include "io/scene/gltf/gltf_assembly.h"
 #include "io/scene/gltf/gltf_buffers.h"
+#include "io/scene/gltf/gltf_cut_out.h"
 #include "io/scene/gltf/gltf_document.h"
 #include "io/scene/gltf/gltf_draco.h"
 #include "io/scene/gltf/gltf_elements.h"
@@ -33,9 +35,7 @@ class GltfReader {
  public:
   GltfReader(const File& file, const ReadOptions& options, MeshWriter* out)
       : tile_(file, options.budget),
-        document_(load_gltf(tile_.gltf_file(), options.budget,
-                            {options.images != nullptr, options.time != nullptr},
-                            tile_.gltf_bytes())),
+        document_(load(options, options.images != nullptr)),
         options_(options),
         buffers_(document_, options.budget, options.spill, options.sandbox),
         draco_(document_, &buffers_, options),
@@ -61,6 +61,15 @@ class GltfReader {
   }
 
  private:
+  // Images may be large, as a part of the JSON: they are read only if a material needs them.
+  GltfDocument load(const ReadOptions& options, bool images) const {
+    GltfDocument document = load_gltf(tile_.gltf_file(), options.budget,
+                                      {images, options.time != nullptr}, tile_.gltf_bytes());
+    if (images || options.alpha == nullptr || !has_mask(document)) return document;
+    document = GltfDocument();
+    return load(options, true);
+  }
+
   // CESIUM_RTC: the origin of a scene on the globe, given z-up.
   Affine centre() const {
     Affine move;
@@ -90,13 +99,17 @@ class GltfReader {
         left_out_.add(Omission::kPointsOrLines);
         continue;
       }
-      if (material && is_cut_out(*material)) left_out_.add(Omission::kCutOuts);
+      const GltfCutOut* const cut = cut_of(primitive, material);
+      if (material && cut == nullptr && is_transparent(*material))
+        left_out_.add(Omission::kCutOuts);
       if (options_.images != nullptr && attributes.has("COLOR_0"))
         left_out_.add(Omission::kVertexColours);
       const bool is_coloured = options_.images != nullptr && material;
       out_.material(name_of_material, is_coloured ? colour_of(*material) : std::nullopt);
       InstanceStream instances(node, world, &buffers_);
-      if (pose_.moves(node, primitive) && !draco_.holds(primitive)) {
+      if (cut != nullptr) {
+        draw_cut(*cut, node, primitive, mode, world, &instances);
+      } else if (pose_.moves(node, primitive) && !draco_.holds(primitive)) {
         draw_posed(node, primitive, mode, world, &instances);
       } else if (const KeptPrimitive* kept = kept_.find(value)) {
         draw_kept(*kept, mode, &instances);
@@ -114,7 +127,18 @@ class GltfReader {
     return document_.element("materials", index);
   }
 
-  static bool is_cut_out(const JsonObject& material) {
+  // What cuts the primitive's material; null: it is whole. Coordinates in Draco are not read.
+  const GltfCutOut* cut_of(const JsonObject& primitive, const std::optional<JsonObject>& material) {
+    if (options_.alpha == nullptr || !material || !is_mask(*material) || draco_.holds(primitive))
+      return nullptr;
+    const uint64_t index = primitive.whole_number("material");
+    const auto found = cuts_.find(index);
+    if (found != cuts_.end()) return &found->second;
+    return &cuts_.emplace(index, cut_out_of(document_, *material, &buffers_, options_.alpha))
+                .first->second;
+  }
+
+  static bool is_transparent(const JsonObject& material) {
     const std::string& alpha = material.text("alphaMode");
     return alpha == "MASK" || alpha == "BLEND";
   }
@@ -210,6 +234,45 @@ class GltfReader {
          GltfPose::is_skinned(node, primitive) ? &once : instances, add_vertices, add_triangles);
   }
 
+  // Draws a primitive whose material is cut: all of its vertices are held.
+  void draw_cut(const GltfCutOut& cut, const JsonObject& node, const JsonObject& primitive,
+                uint64_t mode, const Affine& world, InstanceStream* instances) {
+    const Accessor positions = positions_of(primitive);
+    const uint64_t count = positions.count();
+    const auto memory =
+        options_.budget->reserve(count * sizeof(Point), "vertices of a cut-out mesh");
+    MemoryBudget::Reservation texture_memory;
+    const std::vector<TexturePoint> texture =
+        texture_points(cut, primitive, count, &buffers_, options_.budget, &texture_memory);
+    std::vector<Point> points;
+    points.reserve(size_t(count));
+    pose_.visit_vertices(node, primitive, positions, world,
+                         [&](const Point& p) { points.push_back(p); });
+    InstanceStream once;
+    InstanceStream* const places = GltfPose::is_skinned(node, primitive) ? &once : instances;
+    for (uint64_t i = 0; i < places->count(); ++i) {
+      const Affine to_world = places->next();
+      out_.begin_soup();
+      out_.place(to_world, 0);
+      out_.cut_out(&cut.cut);
+      const auto add = [&](uint64_t a, uint64_t b, uint64_t c) {
+        out_.add_cut({{to_world(points[a]), to_world(points[b]), to_world(points[c])}},
+                     {texture[a], texture[b], texture[c]});
+      };
+      if (primitive.has("indices")) {
+        const Accessor indices = indices_of(primitive, mode);
+        IndexStream corners(indices, count);
+        assemble(mode, indices.count(), corners, add);
+      } else {
+        check_count(mode, count);
+        uint64_t next = 0;
+        auto corners = [&] { return next++; };
+        assemble(mode, count, corners, add);
+      }
+      out_.cut_out(nullptr);
+    }
+  }
+
   void draw_soup(const Accessor& positions, uint64_t mode, InstanceStream* instances) {
     check_count(mode, positions.count());
     out_.begin_soup();
@@ -284,6 +347,7 @@ class GltfReader {
   DracoPrimitives draco_;
   KeptPrimitives kept_;
   GltfPose pose_;
+  std::map<uint64_t, GltfCutOut> cuts_;  // by material
   MeshWriter& out_;
   LeftOut left_out_;
 };

@@ -175,6 +175,13 @@ std::span<const json> JsonObject::array(const char* key) const {
   return value->get_ref<const json::array_t&>();
 }
 
+double JsonObject::number(const char* key, double fallback) const {
+  const json* value = find(key);
+  if (value == nullptr) return fallback;
+  if (!value->is_number()) fail(key, "a number");
+  return value->get<double>();
+}
+
 bool JsonObject::numbers(const char* key, std::span<double> out) const {
   if (!has(key)) return false;
   const auto values = array(key);

@@ -35,6 +35,7 @@ class JsonObject {
   // The object extensions.<name>, if there is one.
   std::optional<JsonObject> extension(const char* name) const;
   std::span<const nlohmann::json> array(const char* key) const;  // empty if absent
+  double number(const char* key, double fallback) const;
   // Fills `out` with exactly out.size() numbers; false if absent.
   bool numbers(const char* key, std::span<double> out) const;
   // A whole number that is an element of an array.

@@ -31,12 +31,15 @@ void convert_elements(const ElementArray& array, const std::byte* in, size_t n, 
   }
 }
 
-// The loop above with a known number of components: SCALAR, VEC3, VEC4, MAT4.
+// The loop above with a known number of components: SCALAR, VEC2, VEC3, VEC4 (and MAT2),
+// MAT4.
 template <class Source, class T>
 void convert_all(const ElementArray& array, const std::byte* in, size_t n, T* out) {
   switch (array.components) {
     case 1:
       return convert_elements<Source, 1>(array, in, n, out);
+    case 2:
+      return convert_elements<Source, 2>(array, in, n, out);
     case 3:
       return convert_elements<Source, 3>(array, in, n, out);
     case 16:

@@ -18,26 +18,34 @@ std::vector<File> image_files(const GltfDocument& document) {
   return files;
 }
 
+GltfImage image_of_texture(const GltfDocument& document, uint64_t number) {
+  const std::string& path = document.file->path();
+  const auto textures = document.root().array("textures");
+  if (number >= textures.size() || !JsonObject(textures[number], path).has("source"))
+    return {{}, path + ": textures[" + std::to_string(number) + "]"};
+  const uint64_t index = JsonObject(textures[number], path).whole_number("source");
+  return {index, path + ": images[" + std::to_string(index) + "]"};
+}
+
+std::vector<std::byte> read_image(const GltfDocument& document, const GltfImage& image,
+                                  GltfBuffers* buffers, MemoryBudget* budget,
+                                  MemoryBudget::Reservation* memory) {
+  // One of an extension, perhaps.
+  if (!image.index) fail_input(image.name, "has no PNG or JPEG image");
+  const std::string& path = document.file->path();
+  const JsonObject object = document.element("images", *image.index);
+  const std::string& uri = object.text("uri");
+  if (uri.empty()) return buffers->view_bytes(object.whole_number("bufferView"), memory);
+  if (!is_data_uri(uri)) return bytes_of_image(open_beside(path, uri, "image"), budget, memory);
+  *memory = budget->reserve(uri.size(), "textures");
+  return decode_data_uri(uri, path);
+}
+
 std::optional<ImageMean> mean_of_texture(const GltfDocument& document, const JsonObject& info,
                                          GltfBuffers* buffers, ImageMeans* means) {
-  const std::string& path = document.file->path();
-  const uint64_t number = info.whole_number("index");
-  const auto textures = document.root().array("textures");
-  if (number >= textures.size() || !JsonObject(textures[number], path).has("source")) {
-    const std::string name = path + ": textures[" + std::to_string(number) + "]";
-    return means->mean(name, [&](MemoryBudget::Reservation*) -> std::vector<std::byte> {
-      fail_input(name, "has no PNG or JPEG image");  // one of an extension, perhaps
-    });
-  }
-  const uint64_t index = JsonObject(textures[number], path).whole_number("source");
-  const std::string name = path + ": images[" + std::to_string(index) + "]";
-  return means->mean(name, [&](MemoryBudget::Reservation* memory) {
-    const JsonObject image = document.element("images", index);
-    const std::string& uri = image.text("uri");
-    if (uri.empty()) return buffers->view_bytes(image.whole_number("bufferView"), memory);
-    if (!is_data_uri(uri)) return means->bytes_of(open_beside(path, uri, "image"), memory);
-    *memory = means->budget()->reserve(uri.size(), "textures");
-    return decode_data_uri(uri, path);
+  const GltfImage image = image_of_texture(document, info.whole_number("index"));
+  return means->mean(image.name, [&](MemoryBudget::Reservation* memory) {
+    return read_image(document, image, buffers, means->budget(), memory);
   });
 }
 

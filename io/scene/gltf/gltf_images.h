@@ -14,6 +14,18 @@ namespace svdag {
 // The files that images are in; none for one that cannot be opened.
 std::vector<File> image_files(const GltfDocument& document);
 
+// The number of an image of a document, and a name that is unique to it.
+struct GltfImage {
+  std::optional<uint64_t> index;  // none: the texture has no PNG or JPEG image
+  std::string name;
+};
+// Of texture `number`.
+GltfImage image_of_texture(const GltfDocument& document, uint64_t number);
+// Its bytes, reserved in *memory.
+std::vector<std::byte> read_image(const GltfDocument& document, const GltfImage& image,
+                                  GltfBuffers* buffers, MemoryBudget* budget,
+                                  MemoryBudget::Reservation* memory);
+
 // The mean of the texture that `info` (as baseColorTexture) names; none, and a note of `means`, if
 // it cannot be read.
 std::optional<ImageMean> mean_of_texture(const GltfDocument& document, const JsonObject& info,

@@ -44,7 +44,7 @@ class WindowBuffer : public std::streambuf {
 
 bool is_read(std::string_view key, GltfParts parts) {
   if (parts.all || (parts.animations && key == "animations")) return true;
-  if (parts.images && (key == "textures" || key == "images")) return true;
+  if (parts.images && (key == "textures" || key == "images" || key == "samplers")) return true;
   constexpr std::array<std::string_view, 12> kKeys = {
       "asset",       "scene",   "scenes",
       "nodes",       "meshes",  "accessors",

@@ -16,7 +16,7 @@ namespace svdag {
 
 // Parts of a document that are read only on request.
 struct GltfParts {
-  bool images = false;  // textures and images
+  bool images = false;  // textures, images and samplers
   bool animations = false;
   bool all = false;  // every member: of other JSON than a glTF document
 };

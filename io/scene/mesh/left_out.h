@@ -37,7 +37,7 @@ struct OmissionKind {
 constexpr OmissionKind kOmissions[] = {
     {"points_or_lines", "groups of points or lines have no triangles"},
     {"hidden", "hidden nodes are not baked; --hidden bakes them"},
-    {"cut_outs", "meshes of materials with transparent parts are baked whole"},
+    {"cut_outs", "meshes of materials with transparent points are baked whole"},
     {"vertex_colours", "meshes have colours of vertices, which are not read"},
     {"unweighted", "skinned vertices without weights are placed by their node"},
     {"channels", "channels of animations are not followed: they move no node"},

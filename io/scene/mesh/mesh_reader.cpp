@@ -39,6 +39,12 @@ void BatchWriter::mirrored(bool mirrored) {
   mirrored_ = mirrored;
 }
 
+void BatchWriter::cut_out(const CutOut* cut) {
+  if (cut == cut_) return;
+  flush();
+  cut_ = cut;
+}
+
 void BatchWriter::quantisation(double step) {
   if (step == quantisation_) return;
   flush();
@@ -58,6 +64,7 @@ void BatchWriter::flush() {
   if (size_ == 0) return;
   if (mirrored_) {
     for (size_t i = 0; i < size_; ++i) std::swap(batch_[i].v[1], batch_[i].v[2]);
+    for (TextureCorners& corners : texture_) std::swap(corners[1], corners[2]);
   }
   sink_({.mesh = mesh_,
          .material = material_,
@@ -65,7 +72,10 @@ void BatchWriter::flush() {
          .first = first_,
          .triangles = {batch_.get(), size_},
          .quantisation = quantisation_,
-         .undeformed = undeformed_});
+         .undeformed = undeformed_,
+         .cut = cut_,
+         .texture = texture_});
+  texture_.clear();
   first_ += size_;
   size_ = 0;
 }

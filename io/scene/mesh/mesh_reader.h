@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "io/colour.h"
+#include "io/scene/cutouts/cut_out.h"
 #include "io/scene/mesh/left_out.h"
 #include "io/scene/mesh/name_filter.h"
 #include "io/triangle.h"
@@ -38,6 +39,10 @@ struct TriangleBatch {
   std::span<const Triangle> triangles;
   double quantisation = 0;  // world distance of the steps positions were stored in (Draco); 0: none
   bool undeformed = false;  // as stored, though a skin or morph targets deform the mesh (glTF)
+  // Of a material with transparent points that are cut out: which, and where each triangle is in
+  // its texture. Null and empty: the triangles are whole.
+  const CutOut* cut = nullptr;
+  std::span<const TextureCorners> texture = {};
 };
 
 // The name of the part of this kind that a batch belongs to.
@@ -57,6 +62,7 @@ inline std::string_view part_name(const TriangleBatch& batch, PartKind kind) {
 
 using TriangleSink = std::function<void(const TriangleBatch&)>;
 
+class AlphaImages;
 class ImageMeans;
 class SpillFile;
 
@@ -115,6 +121,8 @@ struct ReadOptions {
   const PoseTime* time = nullptr;  // null: the pose at rest
   // Not null: set to the length of a unit of the coordinates in metres, if the file states it.
   double* unit_metres = nullptr;
+  // Not null: what is transparent of materials is cut out. It must outlive the triangles' CutOut.
+  AlphaImages* alpha = nullptr;
 
   // Whether the object `name`, which has no material, is selected.
   bool wants(const std::string& name) const {
@@ -154,6 +162,12 @@ class BatchWriter {
   void material(std::string_view name, std::optional<Colour> colour = {});
   void quantisation(double step);
   void mirrored(bool mirrored);
+  // Of the triangles from here on, which add_cut() adds; null: none of them is cut.
+  void cut_out(const CutOut* cut);
+  void add_cut(const Triangle& t, const TextureCorners& texture) {
+    texture_.push_back(texture);
+    add(t.v[0], t.v[1], t.v[2]);
+  }
   // Writes each corner to its place: a Triangle that is built first and then copied is read back in
   // pieces of another size than it was written in, which stalls on the store buffer.
   void add(const Point& a, const Point& b, const Point& c) {
@@ -177,6 +191,8 @@ class BatchWriter {
   double quantisation_ = 0;
   bool undeformed_ = false;
   bool mirrored_ = false;
+  const CutOut* cut_ = nullptr;
+  std::vector<TextureCorners> texture_;  // of batch_, if it is cut
   std::unique_ptr<Triangle[]> batch_;
   size_t size_ = 0, room_ = kFirst;  // triangles in batch_, and its capacity
 };

@@ -108,6 +108,9 @@ class MeshWriter {
   // A triangle without vertices, after begin_soup().
   void add(const Point& a, const Point& b, const Point& c) { out_.add(a, b, c); }
   void begin_soup() { end_mesh(); }
+  // Of a soup: triangles of a material that is cut out (BatchWriter).
+  void cut_out(const CutOut* cut) { out_.cut_out(cut); }
+  void add_cut(const Triangle& t, const TextureCorners& texture) { out_.add_cut(t, texture); }
 
   // Passes everything on.
   void finish() {

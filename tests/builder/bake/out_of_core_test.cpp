@@ -20,7 +20,6 @@
 namespace svdag {
 namespace {
 
-
 class OutOfCore : public ::testing::Test {
  protected:
   // Bakes in memory what the others must equal.
@@ -293,7 +292,8 @@ TEST(TriangleBins, GiveBackWhatTheyGotAndNothingStandsBesideTheirCubes) {
     for (const TriangleBin& bin : bins.finish()) {
       BinReader reader(scratch.triangles(), bin, &budget);
       std::vector<LatticeTriangle> read;
-      while (reader.read(100, &read)) {
+      CutRecords cuts;
+      while (reader.read(100, &read, &cuts)) {
       }
       EXPECT_EQ(read.size(), bin.triangles);
       const MortonRange own = morton_range(bin.cube, grid.levels);

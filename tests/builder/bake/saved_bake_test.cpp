@@ -24,7 +24,13 @@ Grid small_grid() {
 
 SplitScene small_split() {
   SplitScene split;
-  split.counts.scene = {18, 0.5, 2, 3, {}, {}};
+  split.counts.scene.triangles = 18;
+  split.counts.scene.quantisation = 0.5;
+  split.counts.scene.invalid = 2;
+  split.counts.scene.cut = 8;
+  split.counts.scene.undeformed = 3;
+  const auto image = std::make_shared<AlphaImage>(2, 1, std::vector<uint8_t>{0, 200});
+  split.cut_outs = {{image, Wrap::kClamp, Wrap::kMirror, true, 100}, {image}};
   split.counts.clipped = 4;
   split.counts.outside = 5;
   split.counts.degenerate = 6;

@@ -31,10 +31,11 @@ class TriangleBinsTest : public testing::Test {
 
   std::vector<LatticeTriangle> read(const TriangleBin& bin) {
     std::vector<LatticeTriangle> triangles;
-    BinReader(scratch_.triangles(), bin, &budget_).read(bin.triangles, &triangles);
+    BinReader(scratch_.triangles(), bin, &budget_).read(bin.triangles, &triangles, &cuts_);
     return triangles;
   }
 
+  CutRecords cuts_;
   MemoryBudget budget_{uint64_t(64) << 20};
   TempFolder temp_;
   ScratchDir folder_{temp_.file("scratch")};

@@ -89,10 +89,11 @@ class SampledScene : public ::testing::Test {
   // The expected voxels, by clipping every triangle over the whole selection.
   VoxelSet voxels(const Grid& grid) {
     VoxelSet set;
-    stream_snapped(scene(), grid, [&](std::span<const LatticeTriangle> batch, const TriangleBatch&) {
-      for (const LatticeTriangle& t : batch)
-        set.merge(clipped_voxels(t, grid.fraction(), grid.selection));
-    });
+    stream_snapped(scene(), grid, nullptr,
+                   [&](std::span<const LatticeTriangle> batch, const TriangleBatch&) {
+                     for (const LatticeTriangle& t : batch)
+                       set.merge(clipped_voxels(t, grid.fraction(), grid.selection));
+                   });
     return set;
   }
   SampleComparison compare(const Grid& grid, const VoxelSet& in_file, uint64_t count) {

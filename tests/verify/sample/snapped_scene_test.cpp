@@ -19,7 +19,7 @@ class SnappedSceneTest : public ::testing::Test {
   }
 
   SnapCounts judged(const Grid& grid) {
-    return stream_snapped(Scene(config_, &budget_), grid,
+    return stream_snapped(Scene(config_, &budget_), grid, nullptr,
                           [](std::span<const LatticeTriangle>, const TriangleBatch&) {});
   }
   double baked(const Grid& grid) {

@@ -1,0 +1,62 @@
+// Cut-out triangles in the lists of the descent (io/scene/cutouts/cut_triangle.h decides).
+#include <algorithm>
+#include <bit>
+
+#include "builder/descend/descend.h"
+#include "builder/descend/rules.h"
+#include "io/scene/cutouts/cut_triangle.h"
+
+namespace svdag {
+
+// The same triangle, not cut.
+const TriangleSetup* Descent::whole(const TriangleSetup* triangle) {
+  std::unique_ptr<TriangleSetup>& copy = whole_[triangle];
+  if (!copy) {
+    copy = std::make_unique<TriangleSetup>(*triangle);
+    copy->triangle.cut = 0;
+  }
+  return copy.get();
+}
+
+void Descent::settle_cuts(const Cube& cube, TriangleList* list) {
+  const LatticePoint corner = cube.corner(grid_.levels);
+  const int64_t side = int64_t(1) << cube.side_log2(grid_.levels);
+  const int64_t voxel = int64_t(1) << grid_.fraction();
+  std::erase_if(*list, [&](ListedTriangle& entry) {
+    const LatticeTriangle& t = entry.triangle->triangle;
+    if (t.cut == 0) return false;
+    const CutRecord& record = (*cuts_)[t.cut - 1];
+    const Opacity opacity = opacity_in_cube((*config_.cut_outs)[record.material],
+                                            {t, record.corners}, corner, side, voxel);
+    if (opacity == Opacity::kOpaque) entry.triangle = whole(entry.triangle);
+    return opacity == Opacity::kTransparent;
+  });
+}
+
+// The voxels of `wanted` in the brick at `corner` that a triangle sets.
+Brick Descent::opaque_voxels(const ListedTriangle& entry, const LatticePoint& corner,
+                             Brick wanted) {
+  const Brick touched =
+      voxels_.brick(&entry, 1, corner, grid_.fraction(), wanted, &counts_.decisions);
+  const LatticeTriangle& t = entry.triangle->triangle;
+  if (t.cut == 0) return touched;
+  const CutRecord& record = (*cuts_)[t.cut - 1];
+  const CutOut& cut = (*config_.cut_outs)[record.material];
+  const int64_t voxel = int64_t(1) << grid_.fraction();
+  const bool thin = config_.rule == Rule::kThin;
+  const CutTriangle triangle = {t, record.corners};
+  const CutPlane plane(cut, triangle, corner, voxel);
+  Brick opaque = 0;
+  for (Brick left = touched; left != 0; left &= left - 1) {
+    const unsigned bit = unsigned(std::countr_zero(left));
+    const auto [x, y, z] = brick_voxel(bit);
+    Opacity opacity = plane.in_voxel(x, y, z);
+    if (opacity == Opacity::kMixed &&
+        is_opaque_in_voxel(cut, triangle, corner + LatticePoint(x, y, z) * voxel, voxel, thin))
+      opacity = Opacity::kOpaque;
+    if (opacity == Opacity::kOpaque) opaque |= Brick(1) << bit;
+  }
+  return opaque;
+}
+
+}  // namespace svdag

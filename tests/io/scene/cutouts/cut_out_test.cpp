@@ -1,0 +1,182 @@
+#include "io/scene/cutouts/cut_out.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "io/scene/cutouts/cut_triangle.h"
+
+namespace svdag {
+namespace {
+
+std::mt19937 engine(3);
+
+double uniform(double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(engine);
+}
+int whole(int low, int high) {
+  return std::uniform_int_distribution<int>(low, high)(engine);
+}
+
+// Smooth or noisy, of any size, wrapped in any way.
+CutOut random_cut() {
+  const int width = whole(1, 37), height = whole(1, 37), kind = whole(0, 2);
+  std::vector<uint8_t> texels;
+  for (int j = 0; j < height; ++j) {
+    for (int i = 0; i < width; ++i) {
+      const double wave = 127.5 + 127.5 * std::sin(i * 0.7) * std::cos(j * 0.4);
+      texels.push_back(uint8_t(kind == 0 ? whole(0, 255) : kind == 1 ? 255 * whole(0, 1) : wave));
+    }
+  }
+  CutOut cut;
+  cut.image = std::make_shared<AlphaImage>(width, height, texels);
+  cut.wrap_u = Wrap(whole(0, 2));
+  cut.wrap_v = Wrap(whole(0, 2));
+  cut.nearest = whole(0, 1) == 1;
+  return cut;
+}
+
+TEST(AlphaImage, ARangeHoldsItsTexels) {
+  for (int k = 0; k < 300; ++k) {
+    const CutOut cut = random_cut();
+    const AlphaImage& image = *cut.image;
+    const int i0 = whole(0, int(image.width()) - 1), i1 = whole(i0, int(image.width()) - 1);
+    const int j0 = whole(0, int(image.height()) - 1), j1 = whole(j0, int(image.height()) - 1);
+    const AlphaRange range = image.range(i0, i1, j0, j1);
+    AlphaRange own;
+    for (int j = j0; j <= j1; ++j) {
+      for (int i = i0; i <= i1; ++i) own.add({image.at(i, j), image.at(i, j)});
+    }
+    EXPECT_LE(range.least, own.least);
+    EXPECT_GE(range.largest, own.largest);
+  }
+}
+
+TEST(CutOut, NoPointNearContradictsTheOpacity) {
+  int decided = 0;
+  for (int k = 0; k < 20000; ++k) {
+    const CutOut cut = random_cut();
+    const TexturePoint centre{uniform(-60, 60), uniform(-60, 60)};
+    const double half_u = uniform(0, 2), half_v = uniform(0, 2);
+    const Opacity opacity = opacity_near(cut, centre, half_u, half_v);
+    if (opacity == Opacity::kMixed) continue;
+    ++decided;
+    for (int n = 0; n < 20; ++n) {
+      const TexturePoint p{centre.u + uniform(-half_u, half_u),
+                           centre.v + uniform(-half_v, half_v)};
+      EXPECT_EQ(alpha_at(cut, p) >= cut.threshold, opacity == Opacity::kOpaque);
+    }
+  }
+  EXPECT_GT(decided, 3000);
+}
+
+TEST(CutOut, AnOpaquePointIsFoundWhereThereIsOne) {
+  int with = 0, without = 0;
+  for (int k = 0; k < 4000; ++k) {
+    const CutOut cut = random_cut();
+    TexturePolygon triangle;
+    const double size = uniform(0.01, 6), u = uniform(-40, 40), v = uniform(-40, 40);
+    for (int i = 0; i < 3; ++i) triangle.add({u + uniform(0, size), v + uniform(0, size)});
+    double largest = -1;
+    for (int n = 0; n < 400; ++n) {
+      double a = uniform(0, 1), b = uniform(0, 1);
+      if (a + b > 1) a = 1 - a, b = 1 - b;
+      const auto& c = triangle.corners;
+      largest = std::max(largest,
+                         alpha_at(cut, {c[0].u + a * (c[1].u - c[0].u) + b * (c[2].u - c[0].u),
+                                        c[0].v + a * (c[1].v - c[0].v) + b * (c[2].v - c[0].v)}));
+    }
+    const bool found = has_opaque_point(cut, triangle);
+    if (largest >= cut.threshold + 1e-9) {
+      EXPECT_TRUE(found);
+    }
+    // A small triangle is sampled so densely that it has no much more opaque point.
+    if (!cut.nearest && size < 0.3 && largest < cut.threshold - 40) {
+      EXPECT_FALSE(found);
+    }
+    with += found;
+    without += !found;
+  }
+  EXPECT_GT(with, 1000);
+  EXPECT_GT(without, 200);
+}
+
+TEST(CutOut, ASaddleIsOpaqueOnlyWhereItIs) {
+  CutOut cut;
+  cut.image = std::make_shared<AlphaImage>(2, 2, std::vector<uint8_t>{255, 0, 0, 255});
+  cut.wrap_u = cut.wrap_v = Wrap::kClamp;
+  cut.threshold = 130;
+  TexturePolygon edge;  // through the middle, where the alpha is 127.5
+  edge.add({1, 0.5});
+  edge.add({1, 1.5});
+  EXPECT_FALSE(has_opaque_point(cut, edge));
+  edge.corners[0] = {0.5, 0.5};
+  edge.corners[1] = {1.5, 1.5};
+  EXPECT_TRUE(has_opaque_point(cut, edge));
+  // Its only opaque points are inside of the edge: 510 t (1 - t).
+  cut.threshold = 127;
+  edge.corners[0] = {0.75, 1.25};
+  edge.corners[1] = {1.25, 0.75};
+  EXPECT_TRUE(has_opaque_point(cut, edge));
+}
+
+CutTriangle random_triangle(int64_t reach) {
+  CutTriangle t{};
+  for (size_t i = 0; i < 3; ++i) {
+    for (int a = 0; a < 3; ++a) t.triangle.v[i][a] = whole(int(-reach), int(reach));
+    t.corners[i] = {uniform(-30, 60), uniform(-30, 60)};
+  }
+  return t;
+}
+
+constexpr int64_t kVoxel = 256;
+
+TEST(CutTriangle, OrderAndWindingDoNotMatter) {
+  for (int k = 0; k < 3000; ++k) {
+    const CutOut cut = random_cut();
+    const CutTriangle t = random_triangle(4 * kVoxel);
+    CutTriangle other = t;
+    std::swap(other.triangle.v[0], other.triangle.v[2]);
+    std::swap(other.corners[0], other.corners[2]);
+    const LatticePoint corner(whole(-2, 1) * kVoxel, whole(-2, 1) * kVoxel, whole(-2, 1) * kVoxel);
+    for (const bool thin : {false, true})
+      EXPECT_EQ(is_opaque_in_voxel(cut, t, corner, kVoxel, thin),
+                is_opaque_in_voxel(cut, other, corner, kVoxel, thin));
+  }
+}
+
+// What a larger cube or the linear functions decide is what each voxel decides.
+TEST(CutTriangle, CubesAndPlanesDecideAsVoxelsDo) {
+  int opaque = 0, transparent = 0, by_plane = 0;
+  for (int k = 0; k < 3000; ++k) {
+    const CutOut cut = random_cut();
+    const CutTriangle t = random_triangle(whole(0, 1) == 0 ? 4 * kVoxel : 100000);
+    const LatticePoint corner(whole(-2, 0) * kVoxel, whole(-2, 0) * kVoxel, whole(-2, 0) * kVoxel);
+    const Opacity cube = opacity_in_cube(cut, t, corner, 2 * kVoxel, kVoxel);
+    const CutPlane plane(cut, t, corner, kVoxel);
+    CutOut all = cut;
+    all.threshold = 0;
+    for (int v = 0; v < 8; ++v) {
+      const int x = v & 1, y = v >> 1 & 1, z = v >> 2;
+      const LatticePoint at = corner + LatticePoint(x, y, z) * kVoxel;
+      if (!is_opaque_in_voxel(all, t, at, kVoxel, false)) continue;  // the triangle misses it
+      const bool own = is_opaque_in_voxel(cut, t, at, kVoxel, false);
+      EXPECT_TRUE(cube == Opacity::kMixed || own == (cube == Opacity::kOpaque));
+      const Opacity at_once = plane.in_voxel(x, y, z);
+      EXPECT_TRUE(at_once == Opacity::kMixed || own == (at_once == Opacity::kOpaque));
+      by_plane += at_once != Opacity::kMixed;
+      opaque += own;
+      transparent += !own;
+    }
+  }
+  EXPECT_GT(opaque, 500);
+  EXPECT_GT(transparent, 500);
+  EXPECT_GT(by_plane, 500);
+}
+
+}  // namespace
+}  // namespace svdag
