@@ -91,10 +91,11 @@ bool BinBaker::bake_tree(SpillFile* file, const TriangleBin& bin, const CellWind
 }
 
 void BinBaker::bake_dense(SpillFile* file, const TriangleBin& bin, const CellWindings* windings) {
-  constexpr uint64_t kPerTriangle = sizeof(LatticeTriangle) + sizeof(CutRecord) +
-                                    sizeof(TriangleSetup) + 8 * sizeof(ListedTriangle);
-  const uint64_t most = std::max(split_.triangle_bytes / kPerTriangle, uint64_t(kBatch));
-  const auto reservation = budget_->reserve(most * kPerTriangle, "triangles of a dense cube");
+  const uint64_t per_triangle = sizeof(LatticeTriangle) + sizeof(TriangleSetup) +
+                                8 * sizeof(ListedTriangle) +
+                                (materials() > 0 ? sizeof(CutRecord) : 0);
+  const uint64_t most = std::max(split_.triangle_bytes / per_triangle, uint64_t(kBatch));
+  const auto reservation = budget_->reserve(most * per_triangle, "triangles of a dense cube");
   DenseCube cube(grid_, bin.cube, voxelizer_->descent(), budget_);
   progress_->phase("voxelize a dense cube", bin.triangles);
   const LayerWindings at_cube = windings != nullptr ? windings->at(bin.cube) : LayerWindings();

@@ -102,7 +102,7 @@ class GltfReader {
       const GltfCutOut* const cut = cut_of(primitive, material);
       if (material && cut == nullptr && is_transparent(*material))
         left_out_.add(Omission::kCutOuts);
-      if (options_.images != nullptr && attributes.has("COLOR_0"))
+      if ((options_.images != nullptr || cut != nullptr) && attributes.has("COLOR_0"))
         left_out_.add(Omission::kVertexColours);
       const bool is_coloured = options_.images != nullptr && material;
       out_.material(name_of_material, is_coloured ? colour_of(*material) : std::nullopt);

@@ -1,0 +1,69 @@
+# Cut-outs: what an alpha mask makes transparent is no voxel.
+
+## cut_outs
+# Every way of baking gives the same bytes, and every voxel is judged by itself.
+$ python3 -B $TESTS/cut_scene.py 1000
+$ svdag build cut.glb -o a.svdag -r 256
+| a.svdag: 256^3, 900 triangles, 78,999 voxels, 10,165 nodes, 113.1 KiB (11.7 bits per voxel), 0.1 s
+|   800 triangles are cut out by the alpha of their material
+$ svdag-verify mesh a.svdag cut.glb | tail -4
+| voxels     78,999 in the file, 78,999 by the judge
+| missing    0
+| extra      0
+| ok: every voxel agrees with the scene
+$ svdag build cut.glb -o b.svdag -r 256 -m 4M -v | grep -c scratch: && cmp a.svdag b.svdag
+| 0
+? 1
+$ svdag plan cut.glb -o plan -r 256 --shards 2 -q && svdag run plan -q && cmp a.svdag plan/cut.svdag
+$ for i in 1 2; do svdag build cut.glb -o $i.run -r 256 -q --part $i/2; done
+$ svdag merge 1.run 2.run -o b.svdag -q && cmp a.svdag b.svdag
+$ for i in 1 2; do svdag build cut.glb -o b.svdag -r 256 -q --cache cells && cmp a.svdag b.svdag; done
+$ svdag build cut.glb -o t.svdag -r 256 --rule thin -q && svdag-verify mesh t.svdag cut.glb --judge cgal | tail -1
+| ok: every voxel agrees with the scene
+
+## cut_outs_of_layers
+$ python3 -B $TESTS/cut_scene.py 50
+$ svdag build cut.glb -o a.svdag -r 128 --layers material -q && svdag-verify mesh a.svdag cut.glb | tail -4
+| layer      noisy, 2,888 voxels in the file, 2,888 by the judge, 0 missing, 0 extra
+| layer      smooth, 3,093 voxels in the file, 3,093 by the judge, 0 missing, 0 extra
+| layer      whole, 674 voxels in the file, 674 by the judge, 0 missing, 0 extra
+| ok: every voxel agrees with the scene
+
+## whole_by_choice
+$ python3 -B $TESTS/cut_scene.py 20
+$ svdag build cut.glb -o a.svdag -r 128 --no-cutouts
+| a.svdag: 128^3, 90 triangles, 2,892 voxels, 631 nodes, 7.9 KiB (22.3 bits per voxel), 0.0 s
+|   2 meshes of materials with transparent points are baked whole
+$ svdag-verify mesh a.svdag cut.glb --no-cutouts | tail -1
+| ok: every voxel agrees with the scene
+$ svdag-verify mesh a.svdag cut.glb | tail -1
+| not ok: file and scene differ
+$ svdag info cut.glb | tail -1
+|   80 triangles are cut out by the alpha of their material
+$ svdag info cut.glb --json | grep -E '"(cut|triangles)"'
+|   "triangles": 90,
+|   "cut": 80,
+
+## what_cannot_judge_cut_outs_says_so
+$ python3 -B $TESTS/cut_scene.py 20
+$ svdag build cut.glb -o a.svdag -r 64 -q
+$ svdag-verify trace a.svdag cut.glb
+! svdag-verify: the material "noisy" is cut out, which only mesh --judge integer and cgal judge (--no-cutouts judges a bake with it whole)
+? 2
+$ svdag-verify mesh a.svdag cut.glb --judge openvdb
+! svdag-verify: the material "noisy" is cut out, which only mesh --judge integer and cgal judge (--no-cutouts judges a bake with it whole)
+? 2
+$ svdag build cut.glb -o b.svdag -r 64 --rule solid
+! svdag: the material "noisy" has transparent points, so its surface bounds no solid (--no-cutouts bakes it whole)
+? 2
+
+## a_mask_that_cannot_be_read
+# It decides voxels, so it is an error, with the way out.
+$ python3 -B $TESTS/cut_scene.py 4
+$ python3 -c "
+> data = open('cut.glb', 'rb').read()
+> open('broken.glb', 'wb').write(data.replace(b'\x89PNG', b'\x89PNX'))"
+$ svdag build broken.glb -o a.svdag -r 64
+! svdag: broken.glb: images[0]: is not a readable PNG or JPEG image: unknown image type; --no-cutouts bakes the material whole
+? 3
+$ svdag build broken.glb -o a.svdag -r 64 --no-cutouts -q
