@@ -323,6 +323,8 @@ def main(programs, corpus):
             keep("gzip", name, data)
         for name, data in images():
             keep("image", name, data)
+        subprocess.run([sys.executable, "-B", pathlib.Path(__file__).resolve().parent.parent / "cli/cut_scene.py", "4"], cwd=folder, check=True)
+        keep("gltf", "cut.glb", (folder / "cut.glb").read_bytes())
         foreign_scenes.main(str(folder / "s"))
         for number, name in enumerate(("s.3ds", "s.dae")):
             keep("assimp", name, bytes([number]) + (folder / name).read_bytes())

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 
+#include "io/scene/cutouts/alpha_images.h"
 #include "io/scene/polygons/mesh_writer.h"
 #include "streaming/error.h"
 #include "tests/memory_file.h"
@@ -21,8 +22,11 @@ inline int fuzz_reader(MeshReader reader, const uint8_t* data, size_t size,
   try {
     ReadOptions options{&names, false, &budget};
     options.time = time;
+    AlphaImages alpha(&budget, false);
+    options.alpha = &alpha;
     read_meshes(reader, memory.file(), options, [](const TriangleBatch& batch) {
       if (batch.triangles.empty() || batch.triangles.size() > BatchWriter::kBatch) std::abort();
+      if (batch.texture.size() != (batch.cut == nullptr ? 0 : batch.triangles.size())) std::abort();
     });
   } catch (const Error& error) {
     const bool expected = error.code() == ExitCode::kBadInput ||
