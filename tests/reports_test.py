@@ -34,6 +34,7 @@ svdag build city.ply -o dry.svdag -r 64 --dry-run
 svdag info city.svdag
 svdag info half.run
 svdag info city.ply --parts
+svdag info moving.gltf
 svdag info layers.svdag --layers
 svdag info layers.run
 svdag-verify mesh layers.svdag city.ply scan.ply
@@ -71,6 +72,7 @@ class Reports(unittest.TestCase):
                 self.assertIn(done.returncode, (0, 1, 3), line + "\n" + done.stderr)
                 return done.stdout
 
+            subprocess.run([sys.executable, "-B", ROOT / "tests/cli/moving_scene.py", "4"], cwd=folder, check=True)
             for line in BAKES.splitlines():
                 run(line + " -q")
             texts = [(folder / name).read_text() for name in ("report.json", "layers.json", "list.report.json")]

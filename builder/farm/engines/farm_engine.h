@@ -15,13 +15,13 @@ namespace svdag {
 constexpr double kTimeMargin = 4;
 
 struct SubmitConfig {
-  std::string program;  // svdag on the other machines; empty: this program
-  std::string scratch;  // --scratch of the steps
+  std::string program = {};  // svdag on the other machines; empty: this program
+  std::string scratch = {};  // --scratch of the steps
   bool quiet = false;
   // Of some engines.
-  std::string template_path;         // empty: in the plan's folder
-  bool wait = false;                 // return when the plan is done
-  std::vector<std::string> options;  // passed to the engine
+  std::string template_path = {};         // empty: in the plan's folder
+  bool wait = false;                      // return when the plan is done
+  std::vector<std::string> options = {};  // passed to the engine
 };
 
 struct FarmEngine {
