@@ -108,7 +108,8 @@ void CellTree::insert(Node* node, const Cube& cube, uint32_t triangle, const Lat
 }
 
 uint64_t CellTree::prepared_bytes(size_t workers) const {
-  return workers * max_cell_triangles_ * kPreparedBytes;
+  const uint64_t copies = cuts_.empty() ? 1 : 2;  // Descent::whole() prepares cut triangles again
+  return copies * workers * max_cell_triangles_ * kPreparedBytes;
 }
 
 uint64_t CellTree::bytes(size_t workers) const {

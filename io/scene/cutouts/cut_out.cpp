@@ -203,6 +203,11 @@ Opacity opacity_of_few(const CutOut& cut, const Cells& cells, const TexturePoint
 
 }  // namespace
 
+bool is_opaque(const CutOut& cut) noexcept {
+  const AlphaImage& image = *cut.image;
+  return image.range(0, image.width() - 1, 0, image.height() - 1).least >= cut.threshold;
+}
+
 Opacity opacity_near(const CutOut& cut, const TexturePoint& centre, double half_u,
                      double half_v) noexcept {
   half_u += kMargin;

@@ -55,6 +55,9 @@ struct CutOut {
   bool operator==(const CutOut&) const = default;
 };
 
+// Whether no texel is transparent, so that nothing is cut.
+bool is_opaque(const CutOut& cut) noexcept;
+
 // Whether all points within half_u and half_v, and a margin of 2^-20 texel, of `centre` are opaque,
 // or all transparent; kMixed decides nothing.
 Opacity opacity_near(const CutOut& cut, const TexturePoint& centre, double half_u,

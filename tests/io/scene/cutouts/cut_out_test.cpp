@@ -105,6 +105,14 @@ TEST(CutOut, AnOpaquePointIsFoundWhereThereIsOne) {
   EXPECT_GT(without, 200);
 }
 
+TEST(CutOut, IsOpaqueIfNoTexelIsTransparent) {
+  CutOut cut;
+  cut.image = std::make_shared<AlphaImage>(3, 1, std::vector<uint8_t>{255, 128, 200});
+  EXPECT_TRUE(is_opaque(cut));
+  cut.threshold = 129;
+  EXPECT_FALSE(is_opaque(cut));
+}
+
 TEST(CutOut, ASaddleIsOpaqueOnlyWhereItIs) {
   CutOut cut;
   cut.image = std::make_shared<AlphaImage>(2, 2, std::vector<uint8_t>{255, 0, 0, 255});
