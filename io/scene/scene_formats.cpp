@@ -106,6 +106,8 @@ constexpr SceneFormat kFormats[] = {
 };
 
 constexpr const char* kByBlender = "open it in Blender and export it as .glb";
+constexpr const char* kBySvdagUsd =
+    "svdag-usd bakes it, a program of the Python package with the extra [usd]";
 constexpr const char* kByMeshLab = "convert it to .ply, for example with MeshLab or Open3D";
 constexpr const char* kByCloudCompare =
     "svdag bakes triangles: reconstruct a surface first, for example with CloudCompare";
@@ -120,9 +122,8 @@ struct ForeignFormat {
 constexpr ForeignFormat kForeignFormats[] = {
     {" blend ", "BLENDER", "Blender", kByBlender},
     {" abc ", "Ogawa", "Alembic", kByBlender},
-    {" usd usda ", "#usda", "USD", kByBlender},
-    {" usdz ", "", "a USD archive", kByBlender},
-    {" usdc ", "PXR-USDC", "USD", kByBlender},
+    {" usd usda usdz ", "#usda", "USD", kBySvdagUsd},
+    {" usdc ", "PXR-USDC", "USD", kBySvdagUsd},
     {" step stp iges igs ", "ISO-1030", "a CAD model",
      "tessellate it, for example with FreeCAD, and export it as .stl"},
     {" vrml wrl x3d ", "#VRML", "VRML or X3D", kByMeshLab},

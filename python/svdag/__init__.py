@@ -21,9 +21,10 @@ from numpy.typing import ArrayLike, NDArray
 from . import _programs, _svdag
 from ._error import Error
 from ._programs import Progress
+from .usd import build_usd
 
-__all__ = ["Error", "File", "Hits", "Layer", "build", "build_files", "diff", "export", "from_array", "from_coords", "open",
-           "unpack_bricks", "verify_mesh"]
+__all__ = ["Error", "File", "Hits", "Layer", "build", "build_files", "build_usd", "diff", "export", "from_array", "from_coords",
+           "open", "unpack_bricks", "verify_mesh"]
 __version__ = _svdag.__version__
 
 PathLike = Union[str, _os.PathLike]

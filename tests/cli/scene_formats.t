@@ -78,7 +78,7 @@ $ svdag info r.svdag --json | grep '"voxels"'
 
 ## build_foreign_format
 # A scene of a format that is not read: the message names the format and a way to convert it.
-$ for name in a.blend a.abc a.usdz a.step cloud.las scene.obj.zst a.vdb; do
+$ for name in a.blend a.abc a.usd a.usda a.usdc a.usdz a.step cloud.las scene.obj.zst a.vdb; do
 >   echo data > $name
 >   svdag build $name -r 64 -o r.svdag || echo "exit $?"
 > done
@@ -89,9 +89,15 @@ $ for name in a.blend a.abc a.usdz a.step cloud.las scene.obj.zst a.vdb; do
 | exit 3
 | exit 3
 | exit 3
+| exit 3
+| exit 3
+| exit 3
 ! svdag: a.blend: is Blender, which svdag does not read: open it in Blender and export it as .glb
 ! svdag: a.abc: is Alembic, which svdag does not read: open it in Blender and export it as .glb
-! svdag: a.usdz: is a USD archive, which svdag does not read: open it in Blender and export it as .glb
+! svdag: a.usd: is USD, which svdag does not read: svdag-usd bakes it, a program of the Python package with the extra [usd]
+! svdag: a.usda: is USD, which svdag does not read: svdag-usd bakes it, a program of the Python package with the extra [usd]
+! svdag: a.usdc: is USD, which svdag does not read: svdag-usd bakes it, a program of the Python package with the extra [usd]
+! svdag: a.usdz: is USD, which svdag does not read: svdag-usd bakes it, a program of the Python package with the extra [usd]
 ! svdag: a.step: is a CAD model, which svdag does not read: tessellate it, for example with FreeCAD, and export it as .stl
 ! svdag: cloud.las: is a point cloud (LAS), which svdag does not read: svdag bakes triangles: reconstruct a surface first, for example with CloudCompare
 ! svdag: scene.obj.zst: is compressed with zstd, which svdag does not read: unpack it with unzstd

@@ -9,7 +9,8 @@ namespace {
 TEST(ForeignFormats, AreRecognisedByName) {
   EXPECT_EQ(foreign_format_message("blend", ""),
             "is Blender, which svdag does not read: open it in Blender and export it as .glb");
-  for (const char* extension : {"abc", "usdz", "step", "laz", "zst", "splat", "npz"})
+  for (const char* extension :
+       {"abc", "usd", "usda", "usdc", "usdz", "step", "laz", "zst", "splat", "npz"})
     EXPECT_NE(foreign_format_message(extension, "anything"), "") << extension;
 }
 
