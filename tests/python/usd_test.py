@@ -5,10 +5,12 @@ Usage: usd_test.py [TEST...], by the Python of the environment that has the pack
 """
 import os
 import pathlib
+import struct
 import subprocess
 import sys
 import tempfile
 import unittest
+import zlib
 
 import numpy as np
 from pxr import Usd  # noqa: F401
@@ -251,6 +253,54 @@ class Hostile(Stages):
                               env=dict(os.environ))
         self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
         self.assertIn("pip install usd-core", done.stderr)
+
+
+class Materials(Stages):
+    def test_a_texture_below_the_opacity_threshold_is_cut_out(self):
+        def chunk(kind, body):
+            return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+
+        # Grey and alpha: the lower half of four rows is transparent.
+        rows = b"".join(b"\0" + bytes((128, 255 if y < 2 else 0)) * 4 for y in range(4))
+        (self.folder / "half.png").write_bytes(
+            b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 4, 4, 8, 4, 0, 0, 0)) +
+            chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+        stage = self.stage("""def Mesh "card" (prepend apiSchemas = ["MaterialBindingAPI"]) {
+    point3f[] points = [(0,0,0), (1,0,0), (1,1,0), (0,1,0)]
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    texCoord2f[] primvars:st = [(0,0), (1,0), (1,1), (0,1)] (interpolation = "vertex")
+    rel material:binding = </leaf>
+}
+def Material "leaf" {
+    token outputs:surface.connect = </leaf/surface.outputs:surface>
+    def Shader "surface" {
+        uniform token info:id = "UsdPreviewSurface"
+        float inputs:opacity.connect = </leaf/image.outputs:a>
+        color3f inputs:diffuseColor.connect = </leaf/image.outputs:rgb>
+        float inputs:opacityThreshold = 0.5
+        token outputs:surface
+    }
+    def Shader "image" {
+        uniform token info:id = "UsdUVTexture"
+        asset inputs:file = @./half.png@
+        float2 inputs:st.connect = </leaf/st.outputs:result>
+        token inputs:wrapS = "clamp"
+        token inputs:wrapT = "clamp"
+        float outputs:a
+        color3f outputs:rgb
+    }
+    def Shader "st" {
+        uniform token info:id = "UsdPrimvarReader_float2"
+        string inputs:varname = "st"
+        float2 outputs:result
+    }
+}""")
+        svdag.build_usd(stage, self.folder / "usd.svdag", resolution=64)
+        with svdag.open(self.folder / "usd.svdag") as dag:
+            top = dag.occupied(np.array([[0.5, 0.9, 0.001], [0.5, 0.55, 0.001]]))
+            bottom = dag.occupied(np.array([[0.5, 0.1, 0.001], [0.5, 0.4, 0.001]]))
+        self.assertTrue(top.all() and not bottom.any())
 
 
 if __name__ == "__main__":
