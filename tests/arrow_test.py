@@ -15,7 +15,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 STREAMING = ["streaming", "streaming/file", "streaming/memory", "streaming/process", "streaming/spill",
              "streaming/sort"]
-SCENE = ["io/scene/mesh", "io/scene/polygons", "io/scene/decoders", "io/scene/readers", "io/scene/gltf", "io/scene"]
+SCENE = ["io/scene/cutouts", "io/scene/mesh", "io/scene/polygons", "io/scene/decoders", "io/scene/readers", "io/scene/gltf", "io/scene"]
 FORMATS = ["io/formats", "io/formats/dags", "io/formats/voxels", "io/formats/vdb"]
 PHASES = ["builder/octree", "builder/overlap", "builder/overlap/kernels", "builder/winding", "builder/workspace", "builder/reduce",
           "builder/descend", "builder/split", "builder/run", "builder/merge"]
@@ -32,11 +32,12 @@ ALLOWED = {
     "streaming/sort": ["streaming", "streaming/memory", "streaming/process", "streaming/spill"],
     "io": ["streaming"],
     "io/help": STREAMING + ["io", *DAG, "io/scene"],
-    "io/scene/mesh": STREAMING + ["io"],
-    "io/scene/polygons": STREAMING + ["io", "io/scene/mesh"],
     "io/scene/decoders": STREAMING + ["io"],
+    "io/scene/cutouts": STREAMING + ["io", "io/scene/decoders"],
+    "io/scene/mesh": STREAMING + ["io", "io/scene/cutouts"],
+    "io/scene/polygons": STREAMING + ["io", "io/scene/cutouts", "io/scene/mesh"],
     "io/scene/readers": STREAMING + ["io", "io/scene/mesh", "io/scene/polygons", "io/scene/decoders"],
-    "io/scene/gltf": STREAMING + ["io", "io/scene/mesh", "io/scene/polygons", "io/scene/decoders", "io/scene/readers"],
+    "io/scene/gltf": STREAMING + ["io", "io/scene/cutouts", "io/scene/mesh", "io/scene/polygons", "io/scene/decoders", "io/scene/readers"],
     "io/scene": STREAMING + ["io", *DAG] + SCENE,
     **{room: STREAMING + ["io", *DAG] for room in DAG},
     "io/formats": STREAMING + ["io", *DAG],
@@ -49,9 +50,9 @@ ALLOWED = {
     "builder/winding": STREAMING + ["io", *DAG, "builder/octree", "builder/overlap"],
     "builder/workspace": STREAMING + ["io", "io/scene/mesh"],
     "builder/reduce": STREAMING + ["io", *DAG, "builder/octree", "builder/workspace"],
-    "builder/descend": STREAMING + ["io", *DAG, "builder/octree", "builder/overlap", "builder/overlap/kernels",
+    "builder/descend": STREAMING + ["io", *DAG, "io/scene/cutouts", "builder/octree", "builder/overlap", "builder/overlap/kernels",
                                     "builder/winding", "builder/reduce"],
-    "builder/split": STREAMING + ["io", *DAG, "io/scene", "builder/octree", "builder/overlap", "builder/overlap/kernels",
+    "builder/split": STREAMING + ["io", *DAG, "io/scene/cutouts", "io/scene", "builder/octree", "builder/overlap", "builder/overlap/kernels",
                                   "builder/winding", "builder/workspace"],
     "builder/run": STREAMING + ["io", *DAG, "builder/octree"],
     "builder/merge": STREAMING + ["io", *DAG, "builder/octree", "builder/workspace", "builder/reduce",
@@ -71,8 +72,8 @@ ALLOWED = {
     "builder/commands/export": STREAMING + ["io", "io/help", *DAG] + FORMATS,
     "builder/commands/import": STREAMING + ["io", "io/help", *DAG] + FORMATS + ["builder/run", "builder/import"],
     "verify/integrity": STREAMING + ["io", *DAG],
-    "verify/judge": STREAMING + ["io", *DAG],
-    "verify/sample": STREAMING + ["io", *DAG, "io/scene", "verify/integrity", "verify/judge"],
+    "verify/judge": STREAMING + ["io", *DAG, "io/scene/cutouts"],
+    "verify/sample": STREAMING + ["io", *DAG, "io/scene/cutouts", "io/scene", "verify/integrity", "verify/judge"],
     "verify/compare": STREAMING + ["io", *DAG, "io/formats", "verify/judge", "verify/sample"],
     "verify/view": STREAMING + ["io", *DAG],
     "verify/report": STREAMING + ["io", *DAG, "verify/integrity", "verify/view"],

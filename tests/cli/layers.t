@@ -473,6 +473,8 @@ $ for scene in s.gltf s.obj; do svdag build $scene -o x.svdag -r 16 --layers mat
 | svdag: black white.png is also an input, which is never overwritten: choose another output
 | exit 2
 $ cp leaf.png kept.png && svdag build s.gltf -o x.svdag -r 16 -q --report leaf.png && cp kept.png leaf.png
+! svdag: leaf.png is also an input, which is never overwritten: choose another output
+? 2
 $ svdag build s.gltf -o x.svdag -r 16 --layers object | grep texture || echo "no texture is read"
 | no texture is read
 # Another image is another file, with the cells of the first.

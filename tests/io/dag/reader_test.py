@@ -111,7 +111,7 @@ class Reader(unittest.TestCase):
             "reserved": [(reserved, 1)], "a root that does not exist": [(24 + root, 9)],
             "a root without voxels": [(48 + root, 0)], "voxels without a root": [(48 + voxels, 1)],
         }
-        header_edits = {"fewer layers": (808, 2), "more layers": (808, 4), "no kind": (812, 0), "an unknown kind": (812, 4),
+        header_edits = {"fewer layers": (808, 2), "more layers": (808, 4), "no kind": (812, 0), "an unknown kind": (812, 5),
                         "an unknown union": (816, 2), "padding": (820, 1), "reserved": (824, 1), "version": (8, 1)}
         for union in ([], ["--no-union"]):
             dag = folder / "layers.svdag"

@@ -380,7 +380,7 @@ class Import(unittest.TestCase):
         rejected('"layer_colours" that is not of colours 0xRRGGBB', label=good, layer_names=text(b"a\0b\0"),
                  layer_colours=numpy.array([1, 2**24]))
         rejected('"layer_kind" that is not object, material, file or frame', label=good, layer_kind=text(b"none\0"))
-        rejected('"layer_kind" that is not object, material or file', label=good, layer_kind=numpy.array(["file", "file"]))
+        rejected('"layer_kind" that is not object, material, file or frame', label=good, layer_kind=numpy.array(["file", "file"]))
 
     def test_65535_layers_and_no_more(self):
         count = 65535
