@@ -49,14 +49,16 @@ def journal(lattice):
     levels, all_voxels = 5, 1 << 15
     grid = struct.pack("<Ii4d3qI6q12d", lattice, levels, 0.5, 1, 2, 3, 0, 0, 0, lattice, 0, 0, 0, 32, 32, 32,
                        1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0)
-    bake = struct.pack("<I", 7) + text(b"algorithm: 2\nrule: thin\n") + grid + struct.pack("<Q", 16384)
+    bake = struct.pack("<I", 8) + text(b"algorithm: 2\nrule: thin\n") + grid + struct.pack("<Q", 16384)
     bins = b"".join(struct.pack("<i3q2Q", 1, 0, 0, z, z * 4096, (z + 1) * 4096) + struct.pack("<Q", 9) + stream(
         1 + z, 16000 + z, [z]) for z in range(2))
     layers = struct.pack("<IQ", 0, 0)
     windings = struct.pack("<IQ", 1, 2) + struct.pack("<2Ii2Ii", 0, 0, 1, 511, 0, -2) if lattice else struct.pack("<I", 0)
-    left_out = struct.pack("<11Q", *range(11))
-    split = (struct.pack("<Qd2Q", 18, 0.25, 0, 4) + left_out + struct.pack("<3Qd2Qd", 1, 2, 3, 0.125, 1, 0, 8) + struct.pack("<Q", 2) + bins + layers
-             + windings)
+    left_out = struct.pack("<15Q", *range(15))
+    cut_outs = struct.pack("<Q2q", 1, 3, 2) + text(bytes((0, 128, 255, 1, 2, 200)))
+    cut_outs += struct.pack("<Q4Id", 1, 0, 0, 2, 1, 127.5)
+    split = (struct.pack("<Qd3Q", 18, 0.25, 0, 4, 2) + left_out + struct.pack("<3Qd2Qd", 1, 2, 3, 0.125, 1, 0, 8) + struct.pack("<Q", 2) + bins + layers
+             + windings + cut_outs)
     run = struct.pack("<Q", levels - 2) + stream(3, 16, [0]) + stream(4, 32, [1]) + stream(5, 64, [2]) + stream(6, 32, [3])
     root = struct.pack("<Q", 1) + struct.pack("<QiII", 5, 1, 1, 0)
     done = struct.pack("<QQ", 7, 0) + struct.pack("<Q", 2) + struct.pack("<4Q", 0, 512, 4096, all_voxels)
