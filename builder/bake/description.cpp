@@ -11,7 +11,7 @@
 namespace svdag {
 namespace {
 
-constexpr const char* kAlgorithm = "2";  // changes when nodes or bricks of any scene would
+constexpr const char* kAlgorithm = "3";  // changes when nodes or bricks of any scene would
 
 std::string hash_of(const File& file) {
   ByteStream stream(file);
