@@ -50,10 +50,14 @@ void CellTree::charge(uint64_t bytes) {
     reservation_.resize(std::max(2 * used_, reservation_.bytes() + (1U << 20)), "triangles");
 }
 
-void CellTree::add(const LatticeTriangle& whole, const CutRecord* cut) {
+void CellTree::add(const LatticeTriangle& triangle, const CutRecord* cut) {
+  if (cut == nullptr) return add_whole(triangle);
+  charge(sizeof *cut);
+  add_whole(with_record(triangle, *cut, &cuts_));
+}
+
+void CellTree::add_whole(const LatticeTriangle& triangle) {
   ++added_;
-  if (cut != nullptr) charge(sizeof *cut);
-  const LatticeTriangle triangle = with_record(whole, cut, &cuts_);
   const LatticeBox box = box_of(triangle);
   const unsigned met = children_of(root_cube_, box);
   if (met == 0) insert(root_.get(), root_cube_, store(kNoOctant, triangle), box);

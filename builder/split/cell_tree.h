@@ -68,6 +68,7 @@ class CellTree {
   friend class CellCursor;
   struct Node;
 
+  void add_whole(const LatticeTriangle& triangle);  // with its record, if it is cut
   // The children of an inner cube that a box meets, as bits; 0 if the triangle stays at the cube.
   unsigned children_of(const Cube& cube, const LatticeBox& box) const;
   uint32_t store(size_t octant, const LatticeTriangle& triangle);

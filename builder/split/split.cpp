@@ -124,7 +124,8 @@ SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config
                               [&](const SnappedBatch& batch) { store.add(batch); });
   SnappedBatch kept;
   const auto keep = [&](const LatticeTriangle& triangle, const CutRecord* cut) {
-    kept.triangles.push_back(with_record(triangle, cut, &kept.cuts));
+    kept.triangles.push_back(triangle);
+    if (cut != nullptr) kept.triangles.back().cut = add_record(*cut, &kept.cuts) & kMaxCut;
     if (kept.triangles.size() < SnappedBatch::kSize) return;
     kept.outside = counts.outside;
     storing.put(&kept);

@@ -16,6 +16,7 @@ constexpr size_t kSurveyBatch = 4096;  // triangles read at once
 // Without layers: those are not predicted.
 LatticeTriangle shifted(LatticeTriangle triangle, int shift) {
   triangle.subject = kUnionSet;
+  triangle.cut = 0;
   for (LatticePoint& v : triangle.v) {
     for (int a = 0; a < 3; ++a) v[a] >>= shift;
   }

@@ -47,12 +47,10 @@ inline uint32_t add_record(const CutRecord& record, CutRecords* records) {
   return uint32_t(records->size());
 }
 // The triangle as one of `records`, which holds its record from now on.
-inline LatticeTriangle with_record(const LatticeTriangle& t, const CutRecord* record,
+inline LatticeTriangle with_record(const LatticeTriangle& t, const CutRecord& record,
                                    CutRecords* records) {
   LatticeTriangle result = t;
-  result.cut = 0;
-  if (record == nullptr) return result;
-  result.cut = add_record(*record, records) & kMaxCut;
+  result.cut = add_record(record, records) & kMaxCut;
   return result;
 }
 
