@@ -20,9 +20,9 @@ inline double cosine(double x) {
   return 1 + sum;
 }
 
-// The sine of any angle, plus `quarters` quarter turns: its quarter turns are taken off in two parts,
-// the first of which has 33 bits, so that its multiples are exact (Cody and Waite 1980). Within
-// 2^-50 for angles up to 2^20; nothing that is finite leaves [-1, 1].
+// The sine of any angle, plus `quarters` quarter turns. Quarter turns of the angle are taken off in
+// two parts; the first has 33 bits, so that its multiples are exact (Cody and Waite 1980). Within
+// 10^-15 up to 10^6, in [-1, 1] beyond; 0 from 2^32 quarter turns on and for NaN.
 inline double sine_of_angle(double angle, int quarters = 0) {
   constexpr double kHigh = 0x1.921fb544p0, kLow = 0x1.0b4611a626331p-34;  // together pi / 2
   const double turns = std::rint(angle / (kHigh + kLow));

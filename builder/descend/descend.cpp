@@ -317,7 +317,7 @@ Brick Descent::voxels_of(const Cube& cube, std::span<const ListedTriangle> list,
                          uint32_t sheets) {
   const Brick wanted = grid_.bounded ? selected_voxels(cube, grid_.selection) : ~Brick(0);
   const LatticePoint corner = cube.corner(grid_.levels);
-  if (cuts_ != nullptr) {
+  if (cuts_ != nullptr && has_cuts(list)) {
     Brick voxels = 0;
     for (const ListedTriangle& entry : list)
       voxels |= opaque_voxels(entry, corner, wanted & ~voxels);

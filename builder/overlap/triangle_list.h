@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "builder/octree/subject.h"
@@ -24,7 +25,7 @@ inline bool is_of_one_layer(const TriangleList& list) {
   return list.empty() ||
          list.front().triangle->triangle.subject == list.back().triangle->triangle.subject;
 }
-inline bool has_cuts(const TriangleList& list) {
+inline bool has_cuts(std::span<const ListedTriangle> list) {
   return std::ranges::any_of(
       list, [](const ListedTriangle& entry) { return entry.triangle->triangle.cut != 0; });
 }

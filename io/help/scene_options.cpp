@@ -13,7 +13,7 @@ void add_frames(CLI::App* app, SceneConfig* scene, const std::function<void()>& 
            scene->frames = parse_frames(text);
            then();
          },
-         "Pose a glTF scene at each time from A to B, in steps, each a layer; there is no union")
+         "Pose a glTF scene at each time from A to B in steps; each is a layer, without a union")
       ->type_name("A:B:STEP");
 }
 

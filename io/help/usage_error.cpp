@@ -36,7 +36,7 @@ std::string explain_value(const Manual& command, std::span<const std::string> wo
   return name + ": its value is missing before " + words[i + 1];
 }
 
-// The text before and behind the first `separator`; the second is empty if there is no separator.
+// The text before and after the first `separator`; without one, all of it and "".
 std::pair<std::string, std::string> split(const std::string& text, const std::string& separator) {
   const size_t at = text.find(separator);
   if (at == text.npos) return {text, ""};

@@ -29,10 +29,12 @@ class AlphaImage {
   int64_t height() const { return sizes_[0][1]; }
   const std::vector<uint8_t>& texels() const { return texels_; }
   uint8_t at(int64_t i, int64_t j) const { return texels_[size_t(j * sizes_[0][0] + i)]; }
-  // A range of alpha that holds those of the texels i0 to i1 of the rows j0 to j1.
+  // A range that holds the alpha of the texels i0 to i1 of the rows j0 to j1; exact if they are
+  // few.
   AlphaRange range(int64_t i0, int64_t i1, int64_t j0, int64_t j1) const;
-  // Bytes of an image of so many texels, in memory.
-  static uint64_t bytes(uint64_t texels) { return texels + texels; }
+  // Most bytes of an image of so many texels: levels have two bytes a block, and in one row half as
+  // many blocks as the level before.
+  static uint64_t bytes(uint64_t texels) { return 3 * texels + 128; }
 
  private:
   MemoryBudget::Reservation memory_;

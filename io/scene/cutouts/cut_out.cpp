@@ -10,7 +10,7 @@ namespace {
 constexpr double kMargin = 0x1p-20;      // texels around a polygon
 constexpr int kMaxRectangles = 1 << 14;  // looked at for one polygon
 
-// Floors of a quotient, and what remains.
+// a / b, rounded down, for b > 0.
 int64_t floor_div(int64_t a, int64_t b) noexcept {
   return a / b - (a % b < 0 ? 1 : 0);
 }
@@ -57,21 +57,10 @@ struct Cells {
   Interval u, v;
 };
 
-Cells cells_of(const CutOut& cut, const TexturePoint& low, const TexturePoint& high) noexcept {
+Cells cells_of(const CutOut& cut, const TextureBox& box) noexcept {
   const double shift = cut.nearest ? 0 : 0.5;
   const auto cell = [&](double x) { return int64_t(std::floor(x - shift)); };
-  return {{cell(low.u), cell(high.u)}, {cell(low.v), cell(high.v)}};
-}
-
-Cells cells_of(const CutOut& cut, const TexturePolygon& polygon) noexcept {
-  TexturePoint low = polygon.corners[0], high = low;
-  for (size_t i = 1; i < polygon.size; ++i) {
-    low.u = std::min(low.u, polygon.corners[i].u);
-    low.v = std::min(low.v, polygon.corners[i].v);
-    high.u = std::max(high.u, polygon.corners[i].u);
-    high.v = std::max(high.v, polygon.corners[i].v);
-  }
-  return cells_of(cut, low, high);
+  return {{cell(box.low.u), cell(box.high.u)}, {cell(box.low.v), cell(box.high.v)}};
 }
 
 AlphaRange range_of(const CutOut& cut, const Cells& cells) noexcept {
@@ -143,7 +132,7 @@ double largest_alpha(const CutOut& cut, int64_t i, int64_t j,
 bool search(const CutOut& cut, const TexturePolygon& polygon, const Cells& all,
             int* left) noexcept {
   if (polygon.size == 0) return false;
-  Cells cells = cells_of(cut, polygon);
+  Cells cells = cells_of(cut, bounds_of(polygon));
   cells.u = {std::max(cells.u.first, all.u.first), std::min(cells.u.last, all.u.last)};
   cells.v = {std::max(cells.v.first, all.v.first), std::min(cells.v.last, all.v.last)};
   // What is only on their border is in the next cells, too.
@@ -203,6 +192,16 @@ Opacity opacity_of_few(const CutOut& cut, const Cells& cells, const TexturePoint
 
 }  // namespace
 
+TextureBox bounds_of(const TexturePolygon& polygon) noexcept {
+  TextureBox box = {polygon.corners[0], polygon.corners[0]};
+  for (size_t i = 1; i < polygon.size; ++i) {
+    const TexturePoint& p = polygon.corners[i];
+    box.low = {std::min(box.low.u, p.u), std::min(box.low.v, p.v)};
+    box.high = {std::max(box.high.u, p.u), std::max(box.high.v, p.v)};
+  }
+  return box;
+}
+
 bool is_opaque(const CutOut& cut) noexcept {
   const AlphaImage& image = *cut.image;
   return image.range(0, image.width() - 1, 0, image.height() - 1).least >= cut.threshold;
@@ -212,8 +211,8 @@ Opacity opacity_near(const CutOut& cut, const TexturePoint& centre, double half_
                      double half_v) noexcept {
   half_u += kMargin;
   half_v += kMargin;
-  const Cells cells =
-      cells_of(cut, {centre.u - half_u, centre.v - half_v}, {centre.u + half_u, centre.v + half_v});
+  const Cells cells = cells_of(
+      cut, {{centre.u - half_u, centre.v - half_v}, {centre.u + half_u, centre.v + half_v}});
   if (!cut.nearest && cells.u.last - cells.u.first <= 1 && cells.v.last - cells.v.first <= 1)
     return opacity_of_few(cut, cells, centre, half_u, half_v);
   const AlphaRange range = range_of(cut, cells);
@@ -231,11 +230,11 @@ bool has_opaque_point(const CutOut& cut, const TexturePolygon& polygon) noexcept
   middle = {middle.u / double(polygon.size), middle.v / double(polygon.size)};
   if (alpha_at(cut, middle) >= cut.threshold) return true;
   int left = kMaxRectangles;
-  return search(cut, polygon, cells_of(cut, polygon), &left);
+  return search(cut, polygon, cells_of(cut, bounds_of(polygon)), &left);
 }
 
 double alpha_at(const CutOut& cut, const TexturePoint& p) noexcept {
-  const Cells cells = cells_of(cut, p, p);
+  const Cells cells = cells_of(cut, {p, p});
   if (cut.nearest) return range_of(cut, cells).least;
   return bilinear(cut, cells.u.first, cells.v.first)
       .at(p.u - 0.5 - double(cells.u.first), p.v - 0.5 - double(cells.v.first));

@@ -43,6 +43,12 @@ struct TexturePolygon {
   }
 };
 
+struct TextureBox {
+  TexturePoint low, high;
+};
+// The bounds of a polygon of one corner or more.
+TextureBox bounds_of(const TexturePolygon& polygon) noexcept;
+
 enum class Wrap : uint8_t { kRepeat, kMirror, kClamp };
 enum class Opacity : uint8_t { kTransparent, kOpaque, kMixed };
 
@@ -58,8 +64,8 @@ struct CutOut {
 // Whether no texel is transparent, so that nothing is cut.
 bool is_opaque(const CutOut& cut) noexcept;
 
-// Whether all points within half_u and half_v, and a margin of 2^-20 texel, of `centre` are opaque,
-// or all transparent; kMixed decides nothing.
+// kOpaque or kTransparent: all points within half_u and half_v, and a margin of 2^-20 texel, of
+// `centre` are; kMixed decides nothing.
 Opacity opacity_near(const CutOut& cut, const TexturePoint& centre, double half_u,
                      double half_v) noexcept;
 

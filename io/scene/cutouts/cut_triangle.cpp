@@ -87,15 +87,9 @@ Opacity opacity_in_cube(const CutOut& cut, const CutTriangle& t, const LatticePo
   const double low[3] = {-margin, -margin, -margin}, high[3] = {end, end, end};
   const TexturePolygon part = part_in_box(t, corner, low, high);
   if (part.size == 0) return Opacity::kTransparent;
-  TexturePoint least = part.corners[0], largest = least;
-  for (size_t i = 1; i < part.size; ++i) {
-    least.u = std::min(least.u, part.corners[i].u);
-    least.v = std::min(least.v, part.corners[i].v);
-    largest.u = std::max(largest.u, part.corners[i].u);
-    largest.v = std::max(largest.v, part.corners[i].v);
-  }
-  return opacity_near(cut, {(least.u + largest.u) / 2, (least.v + largest.v) / 2},
-                      (largest.u - least.u) / 2, (largest.v - least.v) / 2);
+  const auto [low_uv, high_uv] = bounds_of(part);
+  return opacity_near(cut, {(low_uv.u + high_uv.u) / 2, (low_uv.v + high_uv.v) / 2},
+                      (high_uv.u - low_uv.u) / 2, (high_uv.v - low_uv.v) / 2);
 }
 
 bool is_opaque_in_voxel(const CutOut& cut, const CutTriangle& t, const LatticePoint& corner,

@@ -35,7 +35,7 @@ class GltfReader {
  public:
   GltfReader(const File& file, const ReadOptions& options, MeshWriter* out)
       : tile_(file, options.budget),
-        document_(load(options, options.images != nullptr)),
+        document_(load(options)),
         options_(options),
         buffers_(document_, options.budget, options.spill, options.sandbox),
         draco_(document_, &buffers_, options),
@@ -61,13 +61,10 @@ class GltfReader {
   }
 
  private:
-  // Images may be large, as a part of the JSON: they are read only if a material needs them.
-  GltfDocument load(const ReadOptions& options, bool images) const {
-    GltfDocument document = load_gltf(tile_.gltf_file(), options.budget,
-                                      {images, options.time != nullptr}, tile_.gltf_bytes());
-    if (images || options.alpha == nullptr || !has_mask(document)) return document;
-    document = GltfDocument();
-    return load(options, true);
+  GltfDocument load(const ReadOptions& options) const {
+    const GltfParts parts{options.images != nullptr, options.time != nullptr};
+    const auto load_document = options.alpha != nullptr ? load_with_masks : load_gltf;
+    return load_document(tile_.gltf_file(), options.budget, parts, tile_.gltf_bytes());
   }
 
   // CESIUM_RTC: the origin of a scene on the globe, given z-up.

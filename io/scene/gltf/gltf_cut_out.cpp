@@ -57,6 +57,12 @@ BaseColour base_colour_of(const JsonObject& material) {
   return {};
 }
 
+bool has_mask(const GltfDocument& document) {
+  return std::ranges::any_of(document.root().array("materials"), [&](const nlohmann::json& value) {
+    return is_mask(JsonObject(value, document.file->path()));
+  });
+}
+
 }  // namespace
 
 TexturePoint GltfCutOut::place(double u, double v) const {
@@ -69,10 +75,13 @@ bool is_mask(const JsonObject& material) {
   return material.text("alphaMode") == "MASK";
 }
 
-bool has_mask(const GltfDocument& document) {
-  return std::ranges::any_of(document.root().array("materials"), [&](const nlohmann::json& value) {
-    return is_mask(JsonObject(value, document.file->path()));
-  });
+GltfDocument load_with_masks(const File& file, MemoryBudget* budget, GltfParts parts,
+                             GltfBytes bytes) {
+  GltfDocument document = load_gltf(file, budget, parts, bytes);
+  if (parts.images || !has_mask(document)) return document;
+  document = GltfDocument();
+  parts.images = true;
+  return load_gltf(file, budget, parts, bytes);
 }
 
 GltfCutOut cut_out_of(const GltfDocument& document, const JsonObject& material,

@@ -27,7 +27,9 @@ struct GltfCutOut {
 };
 
 bool is_mask(const JsonObject& material);
-bool has_mask(const GltfDocument& document);
+// As load_gltf(), with images if a material has a mask: images may be a large part of the JSON.
+GltfDocument load_with_masks(const File& file, MemoryBudget* budget, GltfParts parts,
+                             GltfBytes bytes);
 
 // `material`: with is_mask(), of a document that was loaded with its images.
 GltfCutOut cut_out_of(const GltfDocument& document, const JsonObject& material,

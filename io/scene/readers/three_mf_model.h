@@ -25,7 +25,7 @@ struct ThreeMfReference {
   bool is_printable = true;
 };
 
-// The number of a resource and an index in it; 0 is no resource.
+// The number of a resource, or 0 for none, and an index in it.
 using ThreeMfProperty = std::pair<uint32_t, uint32_t>;
 
 struct ThreeMfObject {

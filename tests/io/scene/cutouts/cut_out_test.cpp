@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/scene/cutouts/cut_triangle.h"
+#include "io/scene/gltf/gltf_cut_out.h"
 
 namespace svdag {
 namespace {
@@ -113,6 +114,20 @@ TEST(CutOut, IsOpaqueIfNoTexelIsTransparent) {
   EXPECT_FALSE(is_opaque(cut));
 }
 
+TEST(CutOut, CoordinatesAreScaledThenRotatedThenMoved) {
+  GltfCutOut turned;  // counter-clockwise by a quarter: v points down
+  turned.cut.image = std::make_shared<AlphaImage>(4, 2, std::vector<uint8_t>(8));
+  turned.scale[0] = 3;
+  turned.sine = 1;
+  turned.cosine = 0;
+  turned.offset[0] = 0.5;
+  const TexturePoint right = turned.place(1, 0), down = turned.place(0, 1);
+  EXPECT_EQ(right.u, 0.5 * 4);
+  EXPECT_EQ(right.v, -3 * 2);
+  EXPECT_EQ(down.u, 1.5 * 4);
+  EXPECT_EQ(down.v, 0);
+}
+
 TEST(CutOut, ASaddleIsOpaqueOnlyWhereItIs) {
   CutOut cut;
   cut.image = std::make_shared<AlphaImage>(2, 2, std::vector<uint8_t>{255, 0, 0, 255});
@@ -165,6 +180,7 @@ TEST(CutTriangle, CubesAndPlanesDecideAsVoxelsDo) {
     const CutOut cut = random_cut();
     const CutTriangle t = random_triangle(whole(0, 1) == 0 ? 4 * kVoxel : 100000);
     const LatticePoint corner(whole(-2, 0) * kVoxel, whole(-2, 0) * kVoxel, whole(-2, 0) * kVoxel);
+    const bool thin = whole(0, 1) == 1;
     const Opacity cube = opacity_in_cube(cut, t, corner, 2 * kVoxel, kVoxel);
     const CutPlane plane(cut, t, corner, kVoxel);
     CutOut all = cut;
@@ -172,8 +188,8 @@ TEST(CutTriangle, CubesAndPlanesDecideAsVoxelsDo) {
     for (int v = 0; v < 8; ++v) {
       const int x = v & 1, y = v >> 1 & 1, z = v >> 2;
       const LatticePoint at = corner + LatticePoint(x, y, z) * kVoxel;
-      if (!is_opaque_in_voxel(all, t, at, kVoxel, false)) continue;  // the triangle misses it
-      const bool own = is_opaque_in_voxel(cut, t, at, kVoxel, false);
+      if (!is_opaque_in_voxel(all, t, at, kVoxel, thin)) continue;  // the triangle misses it
+      const bool own = is_opaque_in_voxel(cut, t, at, kVoxel, thin);
       EXPECT_TRUE(cube == Opacity::kMixed || own == (cube == Opacity::kOpaque));
       const Opacity at_once = plane.in_voxel(x, y, z);
       EXPECT_TRUE(at_once == Opacity::kMixed || own == (at_once == Opacity::kOpaque));
