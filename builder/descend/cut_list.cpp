@@ -18,16 +18,24 @@ const TriangleSetup* Descent::whole(const TriangleSetup* triangle) {
   return copy.get();
 }
 
+const CutPlane& Descent::cut_plane(const TriangleSetup* triangle) {
+  KnownCut& known = known_cuts_[size_t(triangle->triangle.cut) % known_cuts_.size()];
+  if (known.triangle != triangle) {
+    const LatticeTriangle& t = triangle->triangle;
+    const CutRecord& record = (*cuts_)[t.cut - 1];
+    known.triangle = triangle;
+    known.plane.emplace((*config_.cut_outs)[record.material], CutTriangle{t, record.corners},
+                        int64_t(1) << grid_.fraction());
+  }
+  return *known.plane;
+}
+
 void Descent::settle_cuts(const Cube& cube, TriangleList* list) {
   const LatticePoint corner = cube.corner(grid_.levels);
   const int64_t side = int64_t(1) << cube.side_log2(grid_.levels);
-  const int64_t voxel = int64_t(1) << grid_.fraction();
   std::erase_if(*list, [&](ListedTriangle& entry) {
-    const LatticeTriangle& t = entry.triangle->triangle;
-    if (t.cut == 0) return false;
-    const CutRecord& record = (*cuts_)[t.cut - 1];
-    const Opacity opacity = opacity_in_cube((*config_.cut_outs)[record.material],
-                                            {t, record.corners}, corner, side, voxel);
+    if (entry.triangle->triangle.cut == 0) return false;
+    const Opacity opacity = cut_plane(entry.triangle).in_cube(corner, side);
     if (opacity == Opacity::kOpaque) entry.triangle = whole(entry.triangle);
     return opacity == Opacity::kTransparent;
   });
@@ -44,17 +52,17 @@ Brick Descent::opaque_voxels(const ListedTriangle& entry, const LatticePoint& co
   const CutOut& cut = (*config_.cut_outs)[record.material];
   const int64_t voxel = int64_t(1) << grid_.fraction();
   const bool thin = config_.rule == Rule::kThin;
-  const CutTriangle triangle = {t, record.corners};
-  const CutPlane plane(cut, triangle, corner, voxel);
+  const CutPlane& plane = cut_plane(entry.triangle);
   Brick opaque = 0;
   for (Brick left = touched; left != 0; left &= left - 1) {
     const unsigned bit = unsigned(std::countr_zero(left));
     const auto [x, y, z] = brick_voxel(bit);
-    Opacity opacity = plane.in_voxel(x, y, z);
-    if (opacity == Opacity::kMixed &&
-        is_opaque_in_voxel(cut, triangle, corner + LatticePoint(x, y, z) * voxel, voxel, thin))
-      opacity = Opacity::kOpaque;
-    if (opacity == Opacity::kOpaque) opaque |= Brick(1) << bit;
+    const LatticePoint at = corner + LatticePoint(x, y, z) * voxel;
+    const Opacity opacity = thin ? plane.in_cube(at, voxel) : plane.any_in_cube(at, voxel);
+    if (opacity == Opacity::kOpaque ||
+        (opacity == Opacity::kMixed &&
+         is_opaque_in_voxel(cut, {t, record.corners}, at, voxel, thin)))
+      opaque |= Brick(1) << bit;
   }
   return opaque;
 }

@@ -42,6 +42,7 @@
 #include "builder/winding/cell_windings.h"
 #include "io/grid.h"
 #include "io/scene/cutouts/cut_records.h"
+#include "io/scene/cutouts/cut_triangle.h"
 
 namespace svdag {
 
@@ -108,6 +109,11 @@ class Descent {
     const TriangleSetup* triangle = nullptr;
     std::optional<PlaneMemo::AdmittedPlane> plane;
   };
+  // A cut triangle of this cell, and how it lies in its texture.
+  struct KnownCut {
+    const TriangleSetup* triangle = nullptr;
+    std::optional<CutPlane> plane;
+  };
   // The sets of voxels in a cube. If they share a sub-DAG, the cube is descended for the union's
   // triangles and winding number, which are theirs.
   struct CubeSets {
@@ -125,6 +131,7 @@ class Descent {
   // Cut-outs (builder/descend/cut_list.cpp).
   void settle_cuts(const Cube& cube, TriangleList* list);
   const TriangleSetup* whole(const TriangleSetup* triangle);
+  const CutPlane& cut_plane(const TriangleSetup* triangle);
   Brick opaque_voxels(const ListedTriangle& entry, const LatticePoint& corner, Brick wanted);
   void node(const Cube& cube, const TriangleList& list, const CubeSets& sets);
   void divide(const Cube& cube, const TriangleList& list, const CubeSets& sets, bool as_roots);
@@ -161,6 +168,7 @@ class Descent {
   const CutRecords* cuts_ = nullptr;
   // Of cut triangles of this cell: as they are where all of them is opaque.
   std::unordered_map<const TriangleSetup*, std::unique_ptr<TriangleSetup>> whole_;
+  std::array<KnownCut, 256> known_cuts_;  // direct-mapped, see cut_plane()
 
   const MortonSet* done_;                           // null: nothing
   bool partly_done_ = false;                        // a part of the cell being baked is in done_

@@ -142,6 +142,7 @@ CutOuts get_cut_outs(RecordReader* in) {
     cut.wrap_u = Wrap(wrap_u);
     cut.wrap_v = Wrap(wrap_v);
     cut.nearest = nearest == 1;
+    cut = with_map(cut);
   }
   return cut_outs;
 }

@@ -135,6 +135,7 @@ void Planner::read_scene() {
     plan_.cut_outs.push_back(cut);
     plan_.cut_outs.back().image =
         std::make_shared<AlphaImage>(image.width(), image.height(), image.texels());
+    plan_.cut_outs.back().map = nullptr;
   }
   if (scene.windings)  // a copy, since the plan outlives the budget
     plan_.windings = CellWindings::of_grid(plan_.grid.levels, scene.windings->entries());

@@ -10,62 +10,13 @@ namespace {
 constexpr double kMargin = 0x1p-20;      // texels around a polygon
 constexpr int kMaxRectangles = 1 << 14;  // looked at for one polygon
 
-// a / b, rounded down, for b > 0.
-int64_t floor_div(int64_t a, int64_t b) noexcept {
-  return a / b - (a % b < 0 ? 1 : 0);
+OpacityMap::Rectangle cells_of(const CutOut& cut, const TextureBox& box) noexcept {
+  return {cut.map->cells(box.low.u, box.high.u), cut.map->cells(box.low.v, box.high.v)};
 }
 
-int64_t wrapped(int64_t i, int64_t size, Wrap wrap) noexcept {
-  if (i >= 0 && i < size) return i;
-  if (wrap == Wrap::kClamp) return std::clamp<int64_t>(i, 0, size - 1);
-  const int64_t turn = floor_div(i, size), at = i - turn * size;
-  return wrap == Wrap::kMirror && turn % 2 != 0 ? size - 1 - at : at;
-}
-
-struct Interval {
-  int64_t first, last;
-};
-
-// Texels of an image that hold those that [first, last] is wrapped to: one interval, or two.
-int intervals(Interval texels, int64_t size, Wrap wrap, Interval out[2]) noexcept {
-  if (texels.first >= 0 && texels.last < size) return out[0] = texels, 1;
-  const int64_t a = wrapped(texels.first, size, wrap), b = wrapped(texels.last, size, wrap);
-  if (wrap == Wrap::kClamp) return out[0] = {a, b}, 1;
-  if (texels.last - texels.first >= size) return out[0] = {0, size - 1}, 1;
-  const int64_t turn = floor_div(texels.last, size);
-  if (turn == floor_div(texels.first, size)) return out[0] = {std::min(a, b), std::max(a, b)}, 1;
-  if (wrap == Wrap::kRepeat) return out[0] = {a, size - 1}, out[1] = {0, b}, 2;
-  out[0] = turn % 2 != 0 ? Interval{std::min(a, b), size - 1} : Interval{0, std::max(a, b)};
-  return 1;
-}
-
-AlphaRange range_of(const CutOut& cut, Interval u, Interval v) noexcept {
-  Interval columns[2], rows[2];
-  const int n = intervals(u, cut.image->width(), cut.wrap_u, columns);
-  const int m = intervals(v, cut.image->height(), cut.wrap_v, rows);
-  AlphaRange range;
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < m; ++j)
-      range.add(cut.image->range(columns[i].first, columns[i].last, rows[j].first, rows[j].last));
-  }
-  return range;
-}
-
-// A rectangle of cells; a cell of a bilinear texture reaches from the centre of a texel to the
-// next.
-struct Cells {
-  Interval u, v;
-};
-
-Cells cells_of(const CutOut& cut, const TextureBox& box) noexcept {
-  const double shift = cut.nearest ? 0 : 0.5;
-  const auto cell = [&](double x) { return int64_t(std::floor(x - shift)); };
-  return {{cell(box.low.u), cell(box.high.u)}, {cell(box.low.v), cell(box.high.v)}};
-}
-
-AlphaRange range_of(const CutOut& cut, const Cells& cells) noexcept {
-  const int64_t next = cut.nearest ? 0 : 1;
-  return range_of(cut, {cells.u.first, cells.u.last + next}, {cells.v.first, cells.v.last + next});
+double texel(const CutOut& cut, int64_t i, int64_t j) noexcept {
+  return double(cut.image->at(wrapped_texel(i, cut.image->width(), cut.wrap_u),
+                              wrapped_texel(j, cut.image->height(), cut.wrap_v)));
 }
 
 // The part of the polygon with sign * (coordinate - limit) >= 0.
@@ -97,11 +48,8 @@ struct Bilinear {
 };
 
 Bilinear bilinear(const CutOut& cut, int64_t i, int64_t j) noexcept {
-  const auto texel = [&](int64_t di, int64_t dj) {
-    return double(cut.image->at(wrapped(i + di, cut.image->width(), cut.wrap_u),
-                                wrapped(j + dj, cut.image->height(), cut.wrap_v)));
-  };
-  const double a00 = texel(0, 0), a10 = texel(1, 0), a01 = texel(0, 1), a11 = texel(1, 1);
+  const double a00 = texel(cut, i, j), a10 = texel(cut, i + 1, j), a01 = texel(cut, i, j + 1),
+               a11 = texel(cut, i + 1, j + 1);
   return {a00,
           a10 - a00,
           a01 - a00,
@@ -129,27 +77,27 @@ double largest_alpha(const CutOut& cut, int64_t i, int64_t j,
 }
 
 // Whether a point of the polygon, which lies in the cells `all`, is opaque.
-bool search(const CutOut& cut, const TexturePolygon& polygon, const Cells& all,
+bool search(const CutOut& cut, const TexturePolygon& polygon, const OpacityMap::Rectangle& all,
             int* left) noexcept {
   if (polygon.size == 0) return false;
-  Cells cells = cells_of(cut, bounds_of(polygon));
+  OpacityMap::Rectangle cells = cells_of(cut, bounds_of(polygon));
   cells.u = {std::max(cells.u.first, all.u.first), std::min(cells.u.last, all.u.last)};
   cells.v = {std::max(cells.v.first, all.v.first), std::min(cells.v.last, all.v.last)};
   // What is only on their border is in the next cells, too.
   if (cells.u.first > cells.u.last || cells.v.first > cells.v.last) return false;
-  const AlphaRange range = range_of(cut, cells);
-  if (range.largest < cut.threshold) return false;
-  if (range.least >= cut.threshold || --*left < 0) return true;
+  const Opacity opacity = cut.map->opacity(cells);
+  if (opacity == Opacity::kTransparent) return false;
+  if (opacity == Opacity::kOpaque || --*left < 0) return true;
   const int64_t columns = cells.u.last - cells.u.first, rows = cells.v.last - cells.v.first;
-  // A single texel has a range of one alpha, so this is a cell between four.
+  // A single texel is decided, so this is a cell between four.
   if (columns == 0 && rows == 0)
     return largest_alpha(cut, cells.u.first, cells.v.first, polygon) >= cut.threshold;
   const bool by_u = columns >= rows;
-  const Interval whole = by_u ? cells.u : cells.v;
+  const OpacityMap::Interval whole = by_u ? cells.u : cells.v;
   const int64_t middle = whole.first + (whole.last - whole.first) / 2;
   const double limit = double(middle + 1) + (cut.nearest ? 0 : 0.5);
   double TexturePoint::*axis = by_u ? &TexturePoint::u : &TexturePoint::v;
-  Cells lower = cells, upper = cells;
+  OpacityMap::Rectangle lower = cells, upper = cells;
   (by_u ? lower.u : lower.v).last = middle;
   (by_u ? upper.u : upper.v).first = middle + 1;
   return search(cut, clipped(polygon, axis, limit, -1), lower, left) ||
@@ -157,27 +105,20 @@ bool search(const CutOut& cut, const TexturePolygon& polygon, const Cells& all,
 }
 
 // One or two cells in each direction, decided by the slopes between their texels.
-Opacity opacity_of_few(const CutOut& cut, const Cells& cells, const TexturePoint& centre,
-                       double half_u, double half_v) noexcept {
+Opacity opacity_of_few(const CutOut& cut, const OpacityMap::Rectangle& cells,
+                       const TexturePoint& centre, double half_u, double half_v) noexcept {
   constexpr double kRounding = 0x1p-20;  // of an alpha
-  const int64_t width = cut.image->width(), height = cut.image->height();
   const int columns = int(cells.u.last - cells.u.first) + 2;
   const int rows = int(cells.v.last - cells.v.first) + 2;
-  int alpha[3][3];
-  int least = 255, largest = 0, slope_u = 0, slope_v = 0;
+  double alpha[3][3];
+  double slope_u = 0, slope_v = 0;
   for (int j = 0; j < rows; ++j) {
-    const int64_t row = wrapped(cells.v.first + j, height, cut.wrap_v);
     for (int i = 0; i < columns; ++i) {
-      const int a = cut.image->at(wrapped(cells.u.first + i, width, cut.wrap_u), row);
-      alpha[j][i] = a;
-      least = std::min(least, a);
-      largest = std::max(largest, a);
+      const double a = alpha[j][i] = texel(cut, cells.u.first + i, cells.v.first + j);
       if (i > 0) slope_u = std::max(slope_u, std::abs(a - alpha[j][i - 1]));
       if (j > 0) slope_v = std::max(slope_v, std::abs(a - alpha[j - 1][i]));
     }
   }
-  if (least >= cut.threshold) return Opacity::kOpaque;
-  if (largest < cut.threshold) return Opacity::kTransparent;
   const double x = centre.u - 0.5 - double(cells.u.first),
                y = centre.v - 0.5 - double(cells.v.first);
   const int i = std::clamp(int(x), 0, columns - 2), j = std::clamp(int(y), 0, rows - 2);
@@ -192,6 +133,12 @@ Opacity opacity_of_few(const CutOut& cut, const Cells& cells, const TexturePoint
 
 }  // namespace
 
+CutOut with_map(CutOut cut) {
+  cut.map = std::make_shared<OpacityMap>(*cut.image, cut.wrap_u, cut.wrap_v, cut.nearest,
+                                         cut.threshold);
+  return cut;
+}
+
 TextureBox bounds_of(const TexturePolygon& polygon) noexcept {
   TextureBox box = {polygon.corners[0], polygon.corners[0]};
   for (size_t i = 1; i < polygon.size; ++i) {
@@ -202,22 +149,17 @@ TextureBox bounds_of(const TexturePolygon& polygon) noexcept {
   return box;
 }
 
-bool is_opaque(const CutOut& cut) noexcept {
-  const AlphaImage& image = *cut.image;
-  return image.range(0, image.width() - 1, 0, image.height() - 1).least >= cut.threshold;
-}
-
-Opacity opacity_near(const CutOut& cut, const TexturePoint& centre, double half_u,
-                     double half_v) noexcept {
+Opacity opacity_near(const CutOut& cut, const TexturePoint& centre, double half_u, double half_v,
+                     OpacityMap::Blocks* blocks) noexcept {
   half_u += kMargin;
   half_v += kMargin;
-  const Cells cells = cells_of(
+  const OpacityMap::Rectangle cells = cells_of(
       cut, {{centre.u - half_u, centre.v - half_v}, {centre.u + half_u, centre.v + half_v}});
-  if (!cut.nearest && cells.u.last - cells.u.first <= 1 && cells.v.last - cells.v.first <= 1)
+  const Opacity opacity = cut.map->opacity(cells, blocks);
+  if (opacity == Opacity::kMixed && !cut.nearest && cells.u.last - cells.u.first <= 1 &&
+      cells.v.last - cells.v.first <= 1)
     return opacity_of_few(cut, cells, centre, half_u, half_v);
-  const AlphaRange range = range_of(cut, cells);
-  if (range.largest < cut.threshold) return Opacity::kTransparent;
-  return range.least >= cut.threshold ? Opacity::kOpaque : Opacity::kMixed;
+  return opacity;
 }
 
 bool has_opaque_point(const CutOut& cut, const TexturePolygon& polygon) noexcept {
@@ -234,8 +176,8 @@ bool has_opaque_point(const CutOut& cut, const TexturePolygon& polygon) noexcept
 }
 
 double alpha_at(const CutOut& cut, const TexturePoint& p) noexcept {
-  const Cells cells = cells_of(cut, {p, p});
-  if (cut.nearest) return range_of(cut, cells).least;
+  const OpacityMap::Rectangle cells = cells_of(cut, {p, p});
+  if (cut.nearest) return texel(cut, cells.u.first, cells.v.first);
   return bilinear(cut, cells.u.first, cells.v.first)
       .at(p.u - 0.5 - double(cells.u.first), p.v - 0.5 - double(cells.v.first));
 }

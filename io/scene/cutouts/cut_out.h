@@ -4,12 +4,10 @@
 // between the centres of four texels otherwise (glTF 2.0, 3.8.4): what a viewer shows from near.
 //
 // A polygon in the plane of the texture is decided by halving the rectangle of cells that it meets
-// (a cell: the square between four centres, or a texel). The texels of a rectangle have a least and
-// a largest alpha; if these do not decide, both halves are looked at, down to single cells. There
-// the largest alpha is at a corner of the polygon or on an edge, as a bilinear function has no
-// maximum inside. Before, a rectangle of few cells is decided by the alpha in its middle and the
-// steepest slope between its texels. So the cost grows with the border of the opaque part, not with
-// the texels. Rejected: pieces of triangles along the texels (cracks, and work that grows with the
+// (io/scene/cutouts/opacity_map.h). Where a rectangle is neither opaque nor transparent, both halves
+// are looked at, down to single cells. There the largest alpha is at a corner of the polygon or on
+// an edge, as a bilinear function has no maximum inside. So the cost grows with the border of the
+// opaque part, not with the texels. Rejected: pieces of triangles along the texels (cracks, and work that grows with the
 // texels).
 #pragma once
 
@@ -19,6 +17,7 @@
 #include <memory>
 
 #include "io/scene/cutouts/alpha_image.h"
+#include "io/scene/cutouts/opacity_map.h"
 
 namespace svdag {
 
@@ -49,25 +48,30 @@ struct TextureBox {
 // The bounds of a polygon of one corner or more.
 TextureBox bounds_of(const TexturePolygon& polygon) noexcept;
 
-enum class Wrap : uint8_t { kRepeat, kMirror, kClamp };
-enum class Opacity : uint8_t { kTransparent, kOpaque, kMixed };
-
 struct CutOut {
   std::shared_ptr<const AlphaImage> image;
   Wrap wrap_u = Wrap::kRepeat, wrap_v = Wrap::kRepeat;
   bool nearest = false;
   double threshold = 127.5;  // alpha in 0 .. 255 from which on a point is opaque
 
-  bool operator==(const CutOut&) const = default;
+  std::shared_ptr<const OpacityMap> map = nullptr;  // of the above; the functions below need it
+
+  bool operator==(const CutOut& other) const {
+    return image == other.image && wrap_u == other.wrap_u && wrap_v == other.wrap_v &&
+           nearest == other.nearest && threshold == other.threshold;
+  }
+  // Whether no texel is transparent, so that nothing is cut.
+  bool is_opaque() const { return image->least() >= threshold; }
 };
 
-// Whether no texel is transparent, so that nothing is cut.
-bool is_opaque(const CutOut& cut) noexcept;
+// The same with its map.
+CutOut with_map(CutOut cut);
 
 // kOpaque or kTransparent: all points within half_u and half_v, and a margin of 2^-20 texel, of
-// `centre` are; kMixed decides nothing.
-Opacity opacity_near(const CutOut& cut, const TexturePoint& centre, double half_u,
-                     double half_v) noexcept;
+// `centre` are; kMixed decides nothing. *blocks: those of the points, if they were looked up and
+// are mixed, else none.
+Opacity opacity_near(const CutOut& cut, const TexturePoint& centre, double half_u, double half_v,
+                     OpacityMap::Blocks* blocks) noexcept;
 
 // Whether a point of the polygon is opaque. A polygon in which more than 2^14 rectangles decide
 // nothing is taken for opaque.

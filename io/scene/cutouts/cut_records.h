@@ -31,7 +31,7 @@ struct CutScene {
 inline uint32_t material_number(const CutOut& cut, CutOuts* all) {
   const auto found = std::ranges::find(*all, cut);
   if (found != all->end()) return uint32_t(found - all->begin());
-  all->push_back(cut);
+  all->push_back(with_map(cut));
   return uint32_t(all->size() - 1);
 }
 // Null: the triangle is whole.

@@ -80,18 +80,6 @@ TexturePolygon part_in_box(const CutTriangle& t, const LatticePoint& corner, con
 
 }  // namespace
 
-// With twice the margin, so that the cube holds the boxes of its voxels in spite of rounding.
-Opacity opacity_in_cube(const CutOut& cut, const CutTriangle& t, const LatticePoint& corner,
-                        int64_t side, int64_t voxel) noexcept {
-  const double margin = 2 * kCutMargin * double(voxel), end = double(side) + margin;
-  const double low[3] = {-margin, -margin, -margin}, high[3] = {end, end, end};
-  const TexturePolygon part = part_in_box(t, corner, low, high);
-  if (part.size == 0) return Opacity::kTransparent;
-  const auto [low_uv, high_uv] = bounds_of(part);
-  return opacity_near(cut, {(low_uv.u + high_uv.u) / 2, (low_uv.v + high_uv.v) / 2},
-                      (high_uv.u - low_uv.u) / 2, (high_uv.v - low_uv.v) / 2);
-}
-
 bool is_opaque_in_voxel(const CutOut& cut, const CutTriangle& t, const LatticePoint& corner,
                         int64_t voxel, bool thin) noexcept {
   const double margin = kCutMargin * double(voxel), end = double(voxel) + margin;
@@ -108,22 +96,21 @@ bool is_opaque_in_voxel(const CutOut& cut, const CutTriangle& t, const LatticePo
   return false;
 }
 
-CutPlane::CutPlane(const CutOut& cut, const CutTriangle& t, const LatticePoint& corner,
-                   int64_t voxel) noexcept
-    : cut_(cut) {
+CutPlane::CutPlane(const CutOut& cut, const CutTriangle& t, int64_t voxel) noexcept
+    : cut_(&cut), margin_(kCutMargin * double(voxel)), start_(t.triangle.v[0]) {
   // Gradients: of u, ((u1 - u0) e2 x n + (u2 - u0) n x e1) / n.n with edges e from v0, n = e1 x e2.
-  constexpr double kThinnest = 1e-8;  // the square of the sine between the edges
-  constexpr double kError = 0x1p-36;  // of a coordinate, by its size
+  // Lost of their digits are 2 log2 of the sine between the edges, which is not less than 0.01.
+  constexpr double kThinnest = 1e-4;  // the square of the sine between the edges
+  TexturePolygon corners;
+  for (const TexturePoint& p : t.corners) corners.add(p);
+  box_ = bounds_of(corners);
   const auto& v = t.triangle.v;
-  double e1[3], e2[3], n[3], to_first[3];
-  double reach = 0;
+  double e1[3], e2[3], n[3];
+  double n2 = 0, l1 = 0, l2 = 0;
   for (int k = 0; k < 3; ++k) {
     e1[k] = double(v[1][k] - v[0][k]);
     e2[k] = double(v[2][k] - v[0][k]);
-    to_first[k] = double(corner[k] - v[0][k]) + double(voxel) / 2;
-    reach += std::abs(to_first[k]) + 8 * double(voxel);
   }
-  double n2 = 0, l1 = 0, l2 = 0;
   for (int k = 0; k < 3; ++k) {
     const int p = (k + 1) % 3, q = (k + 2) % 3;
     n[k] = e1[p] * e2[q] - e1[q] * e2[p];
@@ -132,33 +119,113 @@ CutPlane::CutPlane(const CutOut& cut, const CutTriangle& t, const LatticePoint& 
     l2 += e2[k] * e2[k];
   }
   if (!(n2 > kThinnest * l1 * l2)) return;
-  is_known_ = true;
-  first_ = t.corners[0];
-  half_u_ = half_v_ = 0;
-  const double u1 = t.corners[1].u - t.corners[0].u, u2 = t.corners[2].u - t.corners[0].u;
-  const double v1 = t.corners[1].v - t.corners[0].v, v2 = t.corners[2].v - t.corners[0].v;
+  is_linear_ = true;
+  u_ = t.corners[0].u;
+  v_ = t.corners[0].v;
+  const double u1 = t.corners[1].u - u_, u2 = t.corners[2].u - u_;
+  const double v1 = t.corners[1].v - v_, v2 = t.corners[2].v - v_;
+  const double length = std::sqrt(n2), area = u1 * v2 - u2 * v1;
+  is_invertible_ = area * area > kThinnest * (u1 * u1 + v1 * v1) * (u2 * u2 + v2 * v2);
   for (int k = 0; k < 3; ++k) {
     const int p = (k + 1) % 3, q = (k + 2) % 3;
-    const double e2n = e2[p] * n[q] - e2[q] * n[p], ne1 = n[p] * e1[q] - n[q] * e1[p];
-    const double gu = (u1 * e2n + u2 * ne1) / n2, gv = (v1 * e2n + v2 * ne1) / n2;
-    first_.u += gu * to_first[k];
-    first_.v += gv * to_first[k];
-    step_[k] = {gu * double(voxel), gv * double(voxel)};
-    half_u_ += std::abs(gu);
-    half_v_ += std::abs(gv);
+    normal_[k] = n[k] / length;
+    edge_by_[1][k] = (e2[p] * n[q] - e2[q] * n[p]) / n2;
+    edge_by_[2][k] = (n[p] * e1[q] - n[q] * e1[p]) / n2;
+    edge_by_[0][k] = -edge_by_[1][k] - edge_by_[2][k];
+    u_by_[k] = u1 * edge_by_[1][k] + u2 * edge_by_[2][k];
+    v_by_[k] = v1 * edge_by_[1][k] + v2 * edge_by_[2][k];
+    by_u_[k] = (v2 * e1[k] - v1 * e2[k]) / area;
+    by_v_[k] = (u1 * e2[k] - u2 * e1[k]) / area;
   }
-  const double size_u = std::abs(t.corners[0].u) + half_u_ * reach;
-  const double size_v = std::abs(t.corners[0].v) + half_v_ * reach;
-  const double half = double(voxel) * (0.5 + 2 * kCutMargin);
-  half_u_ = half_u_ * half + size_u * kError;
-  half_v_ = half_v_ * half + size_v * kError;
+  edge_by_u_[1] = v2 / area, edge_by_v_[1] = -u2 / area;
+  edge_by_u_[2] = -v1 / area, edge_by_v_[2] = u1 / area;
+  edge_by_u_[0] = -edge_by_u_[1] - edge_by_u_[2];
+  edge_by_v_[0] = -edge_by_v_[1] - edge_by_v_[2];
 }
 
-Opacity CutPlane::in_voxel(int x, int y, int z) const noexcept {
-  if (!is_known_) return Opacity::kMixed;
-  const TexturePoint centre = {first_.u + x * step_[0].u + y * step_[1].u + z * step_[2].u,
-                               first_.v + x * step_[0].v + y * step_[1].v + z * step_[2].v};
-  return opacity_near(cut_, centre, half_u_, half_v_);
+Opacity CutPlane::decide(const LatticePoint& corner, int64_t side, bool any) const noexcept {
+  constexpr double kError = 0x1p-36;  // of a function, by the sizes of its terms
+  const double half = double(side) / 2 + 2 * margin_;
+  TextureBox box = box_;
+  double to[3], reach = 0, distance = 0;  // from v0 to the cube's centre
+  double u = u_, v = v_;
+  if (is_linear_) {
+    double half_u = std::abs(u_), half_v = std::abs(v_), span_u = 0, span_v = 0;
+    for (int k = 0; k < 3; ++k) {
+      to[k] = double(corner[k] - start_[k]) + double(side) / 2;
+      reach += std::abs(to[k]);
+      distance += normal_[k] * to[k];
+      u += u_by_[k] * to[k];
+      v += v_by_[k] * to[k];
+      span_u += std::abs(u_by_[k]);
+      span_v += std::abs(v_by_[k]);
+    }
+    half_u = span_u * half + (half_u + span_u * reach) * kError;
+    half_v = span_v * half + (half_v + span_v * reach) * kError;
+    box.low = {std::max(box.low.u, u - half_u), std::max(box.low.v, v - half_v)};
+    box.high = {std::min(box.high.u, u + half_u), std::min(box.high.v, v + half_v)};
+    if (box.low.u > box.high.u || box.low.v > box.high.v) return Opacity::kTransparent;
+  }
+  OpacityMap::Blocks blocks;
+  const Opacity opacity =
+      opacity_near(*cut_, {(box.low.u + box.high.u) / 2, (box.low.v + box.high.v) / 2},
+                   (box.high.u - box.low.u) / 2, (box.high.v - box.low.v) / 2, &blocks);
+  if (opacity != Opacity::kMixed || blocks.columns == 0 || !is_invertible_ || !is_linear_)
+    return opacity;
+
+  // Of the centre of the first block: its distances from the cube's centre, and its barycentric
+  // coordinates. `near`: what a block may be apart and still have a point in the cube (in the
+  // triangle); `inside`: what a sample may be and surely be there.
+  const double du = blocks.u - u, dv = blocks.v - v;
+  const double beyond = std::abs(du) + std::abs(dv) + 8 * blocks.size;
+  double at[6], near[6], inside[6], by_column[6], by_row[6];
+  for (int k = 0; k < 3; ++k) {
+    const double span = std::abs(by_u_[k]) + std::abs(by_v_[k]);
+    const double error = (reach + span * beyond) * kError;
+    at[k] = by_u_[k] * du + by_v_[k] * dv - distance * normal_[k];
+    by_column[k] = by_u_[k] * blocks.size;
+    by_row[k] = by_v_[k] * blocks.size;
+    near[k] = half + span * blocks.size / 2 + error;
+    inside[k] = double(side) / 2 - error;
+  }
+  int tests = 3;
+  for (int e = 0; e < 3; ++e) {
+    double edge = edge_at_[e], span = 0;
+    for (int k = 0; k < 3; ++k) {
+      edge += edge_by_[e][k] * to[k];
+      span += std::abs(edge_by_[e][k]);
+    }
+    const double in_texture = std::abs(edge_by_u_[e]) + std::abs(edge_by_v_[e]);
+    const double error = (1 + span * reach + in_texture * beyond) * kError;
+    if (edge - span * half > error) continue;  // the edge does not meet the cube
+    at[tests] = edge + edge_by_u_[e] * du + edge_by_v_[e] * dv;
+    by_column[tests] = edge_by_u_[e] * blocks.size;
+    by_row[tests] = edge_by_v_[e] * blocks.size;
+    near[tests] = in_texture * blocks.size / 2 + span * 2 * margin_ + error;
+    inside[tests] = error;
+    ++tests;
+  }
+  const double sample = blocks.sample / blocks.size;
+  bool some = false, all = true;
+  for (int j = 0; j < blocks.rows; ++j) {
+    for (int i = 0; i < blocks.columns; ++i) {
+      const uint32_t bits = blocks.bits[j] >> 8 * i;
+      if (any && (bits & OpacityMap::kSome) == 0) continue;
+      bool is_near = true, has_sample = (bits & OpacityMap::kSample) != 0;
+      for (int k = 0; k < tests; ++k) {
+        const double x = at[k] + i * by_column[k] + j * by_row[k];
+        is_near &= k < 3 ? std::abs(x) <= near[k] : x >= -near[k];
+        const double y = x + sample * (by_column[k] + by_row[k]);
+        has_sample &= k < 3 ? std::abs(y) <= inside[k] : y >= inside[k];
+      }
+      if (any && has_sample) return Opacity::kOpaque;
+      if (!is_near) continue;
+      some |= (bits & OpacityMap::kSome) != 0;
+      all &= (bits & OpacityMap::kAll) != 0;
+    }
+  }
+  if (!some) return Opacity::kTransparent;
+  return all && !any ? Opacity::kOpaque : Opacity::kMixed;
 }
 
 }  // namespace svdag

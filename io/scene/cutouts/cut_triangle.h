@@ -20,31 +20,46 @@ struct CutTriangle {
   TextureCorners corners;
 };
 
-// The opacity of the triangle in a cube of `side` lattice units at `corner`; a voxel has `voxel`.
-Opacity opacity_in_cube(const CutOut& cut, const CutTriangle& t, const LatticePoint& corner,
-                        int64_t side, int64_t voxel) noexcept;
-
 // Whether the triangle has an opaque point in the voxel at `corner`. `thin`: on one of the three
 // segments that join the centres of opposite faces.
 bool is_opaque_in_voxel(const CutOut& cut, const CutTriangle& t, const LatticePoint& corner,
                         int64_t voxel, bool thin) noexcept;
 
-// Decides most voxels of a few around `corner` at once, as is_opaque_in_voxel() would: by the
-// texture coordinates as linear functions of space, constant along the triangle's normal.
+// Decides most cubes of a triangle at once, as is_opaque_in_voxel() would decide their voxels.
+//
+// Texture coordinates are linear functions of space, constant along the triangle's normal, and
+// points of the triangle are linear functions of texture coordinates. So the cube's part of the
+// triangle is in a rectangle of the texture, and a block of the texture is in a box, and inside or
+// outside of edges. A block that is apart from the cube in one of these directions does not count
+// (the separating axes of the convex polygons cube and block cut out of the plane: nearly exact).
+// All errors are bounded, and what is nearer decides nothing.
 class CutPlane {
  public:
-  CutPlane(const CutOut& cut, const CutTriangle& t, const LatticePoint& corner,
-           int64_t voxel) noexcept;
+  CutPlane(const CutOut& cut, const CutTriangle& t, int64_t voxel) noexcept;
 
-  // Of the voxel x, y, z from the corner on, which the triangle meets.
-  Opacity in_voxel(int x, int y, int z) const noexcept;
+  // The triangle's opacity in a cube of `side` lattice units at `corner`.
+  Opacity in_cube(const LatticePoint& corner, int64_t side) const noexcept {
+    return decide(corner, side, false);
+  }
+  // Whether the triangle, which meets the cube, has an opaque point in it (kOpaque), or none.
+  Opacity any_in_cube(const LatticePoint& corner, int64_t side) const noexcept {
+    return decide(corner, side, true);
+  }
 
  private:
-  const CutOut& cut_;
-  bool is_known_ = false;   // false: the triangle is too thin
-  TexturePoint first_;      // at the centre of the first voxel
-  TexturePoint step_[3];    // to the next one along each axis
-  double half_u_, half_v_;  // from the centre of a voxel to its corners
+  Opacity decide(const LatticePoint& corner, int64_t side, bool any) const noexcept;
+
+  const CutOut* cut_;
+  double margin_;                     // kCutMargin, in lattice units
+  TextureBox box_;                    // of the corners
+  bool is_linear_ = false;            // false: the triangle is too thin
+  bool is_invertible_ = false;        // false: it is in the texture
+  LatticePoint start_;                // the corner v0 of the triangle
+  double normal_[3];                  // of length 1
+  double u_, v_, u_by_[3], v_by_[3];  // at v0, and by distance from it
+  double by_u_[3], by_v_[3];          // of points of the plane
+  // The barycentric coordinates (the second and third, and the first as 1 less these).
+  double edge_at_[3] = {1, 0, 0}, edge_by_[3][3], edge_by_u_[3], edge_by_v_[3];
 };
 
 }  // namespace svdag

@@ -99,7 +99,7 @@ class GltfReader {
       const GltfCutOut* cut = cut_of(primitive, material);
       if (material && cut == nullptr && is_transparent(*material))
         left_out_.add(Omission::kCutOuts);
-      if (cut != nullptr && is_opaque(cut->cut)) cut = nullptr;
+      if (cut != nullptr && cut->cut.is_opaque()) cut = nullptr;
       if ((options_.images != nullptr || cut != nullptr) && attributes.has("COLOR_0"))
         left_out_.add(Omission::kVertexColours);
       const bool is_coloured = options_.images != nullptr && material;
