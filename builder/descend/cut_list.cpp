@@ -1,6 +1,7 @@
 // Cut-out triangles in the lists of the descent (io/scene/cutouts/cut_triangle.h decides).
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "builder/descend/descend.h"
 #include "builder/descend/rules.h"
@@ -33,8 +34,10 @@ const CutPlane& Descent::cut_plane(const TriangleSetup* triangle) {
 void Descent::settle_cuts(const Cube& cube, TriangleList* list) {
   const LatticePoint corner = cube.corner(grid_.levels);
   const int64_t side = int64_t(1) << cube.side_log2(grid_.levels);
+  const int64_t cell = int64_t(std::ldexp(cell_side_, grid_.fraction()));
   std::erase_if(*list, [&](ListedTriangle& entry) {
     if (entry.triangle->triangle.cut == 0) return false;
+    if (side < cell && 2 * double(side) > entry.triangle->extent) return false;
     const Opacity opacity = cut_plane(entry.triangle).in_cube(corner, side);
     if (opacity == Opacity::kOpaque) entry.triangle = whole(entry.triangle);
     return opacity == Opacity::kTransparent;

@@ -162,6 +162,18 @@ Opacity opacity_near(const CutOut& cut, const TexturePoint& centre, double half_
   return opacity;
 }
 
+// A bilinear function is largest at a corner of a rectangle.
+double largest_alpha_in_box(const CutOut& cut, int64_t i, int64_t j,
+                            const TextureBox& box) noexcept {
+  const Bilinear f = bilinear(cut, i, j);
+  const double u = double(i) + 0.5, v = double(j) + 0.5;
+  const double x0 = std::clamp(box.low.u - kMargin - u, 0.0, 1.0);
+  const double x1 = std::clamp(box.high.u + kMargin - u, 0.0, 1.0);
+  const double y0 = std::clamp(box.low.v - kMargin - v, 0.0, 1.0);
+  const double y1 = std::clamp(box.high.v + kMargin - v, 0.0, 1.0);
+  return std::max({f.at(x0, y0), f.at(x1, y0), f.at(x0, y1), f.at(x1, y1)});
+}
+
 bool has_opaque_point(const CutOut& cut, const TexturePolygon& polygon) noexcept {
   if (polygon.size == 0) return false;
   TexturePoint middle = {0, 0};

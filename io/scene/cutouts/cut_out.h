@@ -73,6 +73,9 @@ CutOut with_map(CutOut cut);
 Opacity opacity_near(const CutOut& cut, const TexturePoint& centre, double half_u, double half_v,
                      OpacityMap::Blocks* blocks) noexcept;
 
+// The largest alpha of a bilinear texture in the part of the box in cell i of row j.
+double largest_alpha_in_box(const CutOut& cut, int64_t i, int64_t j, const TextureBox& box) noexcept;
+
 // Whether a point of the polygon is opaque. A polygon in which more than 2^14 rectangles decide
 // nothing is taken for opaque.
 bool has_opaque_point(const CutOut& cut, const TexturePolygon& polygon) noexcept;

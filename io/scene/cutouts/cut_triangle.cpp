@@ -143,27 +143,81 @@ CutPlane::CutPlane(const CutOut& cut, const CutTriangle& t, int64_t voxel) noexc
   edge_by_v_[0] = -edge_by_v_[1] - edge_by_v_[2];
 }
 
+// A cube, relative to its centre.
+struct CutPlane::InCube {
+  double distance;     // of the centre from the plane
+  TexturePoint foot;   // texture coordinates of the point of the plane that is next to the centre
+  double inside[3];    // what a point may be away along each axis, and surely is in the cube
+  int edges = 0;       // that meet the cube
+  int edge[3];         // their numbers
+  double edge_at[3];   // their barycentric coordinates at the foot
+  double edge_in[3];   // where a point surely is in the triangle
+};
+
+// Looks at points of the plane on the line through the centre along the longest axis of the normal,
+// and in the corners of the cube around it.
+bool CutPlane::has_opaque_sample(const InCube& in) const noexcept {
+  int w = 0;
+  for (int k = 1; k < 3; ++k) {
+    if (std::abs(normal_[k]) > std::abs(normal_[w])) w = k;
+  }
+  const int a = (w + 1) % 3, b = (w + 2) % 3;
+  const auto height = [&](double x, double y) {
+    return -(in.distance + normal_[a] * x + normal_[b] * y) / normal_[w];
+  };
+  const double middle = height(0, 0);
+  const bool has_middle = std::abs(middle) <= in.inside[w];
+  for (int n = has_middle ? 0 : 1; n < 5; ++n) {
+    double p[3];
+    p[a] = n == 0 ? 0 : (n & 1) != 0 ? in.inside[a] : -in.inside[a];
+    p[b] = n == 0 ? 0 : n <= 2 ? in.inside[b] : -in.inside[b];
+    p[w] = height(p[a], p[b]);
+    if (std::abs(p[w]) > in.inside[w]) {
+      if (!has_middle) continue;
+      const double limit = std::copysign(in.inside[w], p[w]);
+      const double t = 0.999 * (limit - middle) / (p[w] - middle);
+      p[a] *= t;
+      p[b] *= t;
+      p[w] = middle + t * (p[w] - middle);
+    }
+    TexturePoint at = in.foot;
+    for (int k = 0; k < 3; ++k) {
+      at.u += u_by_[k] * p[k];
+      at.v += v_by_[k] * p[k];
+    }
+    bool is_inside = true;
+    for (int e = 0; e < in.edges; ++e) {
+      const double* const by = edge_by_[in.edge[e]];
+      is_inside &= in.edge_at[e] + by[0] * p[0] + by[1] * p[1] + by[2] * p[2] >= in.edge_in[e];
+    }
+    if (is_inside && alpha_at(*cut_, at) >= cut_->threshold + OpacityMap::kSurely) return true;
+  }
+  return false;
+}
+
 Opacity CutPlane::decide(const LatticePoint& corner, int64_t side, bool any) const noexcept {
   constexpr double kError = 0x1p-36;  // of a function, by the sizes of its terms
   const double half = double(side) / 2 + 2 * margin_;
   TextureBox box = box_;
-  double to[3], reach = 0, distance = 0;  // from v0 to the cube's centre
-  double u = u_, v = v_;
+  InCube in;
+  in.distance = 0;
+  in.foot = {u_, v_};
+  double to[3], reach = 0;  // from v0 to the cube's centre
   if (is_linear_) {
     double half_u = std::abs(u_), half_v = std::abs(v_), span_u = 0, span_v = 0;
     for (int k = 0; k < 3; ++k) {
       to[k] = double(corner[k] - start_[k]) + double(side) / 2;
       reach += std::abs(to[k]);
-      distance += normal_[k] * to[k];
-      u += u_by_[k] * to[k];
-      v += v_by_[k] * to[k];
+      in.distance += normal_[k] * to[k];
+      in.foot.u += u_by_[k] * to[k];
+      in.foot.v += v_by_[k] * to[k];
       span_u += std::abs(u_by_[k]);
       span_v += std::abs(v_by_[k]);
     }
     half_u = span_u * half + (half_u + span_u * reach) * kError;
     half_v = span_v * half + (half_v + span_v * reach) * kError;
-    box.low = {std::max(box.low.u, u - half_u), std::max(box.low.v, v - half_v)};
-    box.high = {std::min(box.high.u, u + half_u), std::min(box.high.v, v + half_v)};
+    box.low = {std::max(box.low.u, in.foot.u - half_u), std::max(box.low.v, in.foot.v - half_v)};
+    box.high = {std::min(box.high.u, in.foot.u + half_u), std::min(box.high.v, in.foot.v + half_v)};
     if (box.low.u > box.high.u || box.low.v > box.high.v) return Opacity::kTransparent;
   }
   OpacityMap::Blocks blocks;
@@ -174,19 +228,19 @@ Opacity CutPlane::decide(const LatticePoint& corner, int64_t side, bool any) con
     return opacity;
 
   // Of the centre of the first block: its distances from the cube's centre, and its barycentric
-  // coordinates. `near`: what a block may be apart and still have a point in the cube (in the
-  // triangle); `inside`: what a sample may be and surely be there.
-  const double du = blocks.u - u, dv = blocks.v - v;
+  // coordinates. `near`: what a block may be away and still have a point in the cube (in the
+  // triangle).
+  const double du = blocks.u - in.foot.u, dv = blocks.v - in.foot.v;
   const double beyond = std::abs(du) + std::abs(dv) + 8 * blocks.size;
   double at[6], near[6], inside[6], by_column[6], by_row[6];
   for (int k = 0; k < 3; ++k) {
     const double span = std::abs(by_u_[k]) + std::abs(by_v_[k]);
     const double error = (reach + span * beyond) * kError;
-    at[k] = by_u_[k] * du + by_v_[k] * dv - distance * normal_[k];
+    at[k] = by_u_[k] * du + by_v_[k] * dv - in.distance * normal_[k];
     by_column[k] = by_u_[k] * blocks.size;
     by_row[k] = by_v_[k] * blocks.size;
     near[k] = half + span * blocks.size / 2 + error;
-    inside[k] = double(side) / 2 - error;
+    inside[k] = in.inside[k] = double(side) / 2 - error;
   }
   int tests = 3;
   for (int e = 0; e < 3; ++e) {
@@ -198,6 +252,9 @@ Opacity CutPlane::decide(const LatticePoint& corner, int64_t side, bool any) con
     const double in_texture = std::abs(edge_by_u_[e]) + std::abs(edge_by_v_[e]);
     const double error = (1 + span * reach + in_texture * beyond) * kError;
     if (edge - span * half > error) continue;  // the edge does not meet the cube
+    in.edge[in.edges] = e;
+    in.edge_at[in.edges] = edge;
+    in.edge_in[in.edges++] = error;
     at[tests] = edge + edge_by_u_[e] * du + edge_by_v_[e] * dv;
     by_column[tests] = edge_by_u_[e] * blocks.size;
     by_row[tests] = edge_by_v_[e] * blocks.size;
@@ -205,6 +262,7 @@ Opacity CutPlane::decide(const LatticePoint& corner, int64_t side, bool any) con
     inside[tests] = error;
     ++tests;
   }
+  const bool by_cells = any && blocks.size == 1 && !cut_->nearest;
   const double sample = blocks.sample / blocks.size;
   bool some = false, all = true;
   for (int j = 0; j < blocks.rows; ++j) {
@@ -220,12 +278,17 @@ Opacity CutPlane::decide(const LatticePoint& corner, int64_t side, bool any) con
       }
       if (any && has_sample) return Opacity::kOpaque;
       if (!is_near) continue;
+      if (by_cells && !some &&
+          largest_alpha_in_box(*cut_, int64_t(blocks.u) - 1 + i, int64_t(blocks.v) - 1 + j, box) <
+              cut_->threshold)
+        continue;
       some |= (bits & OpacityMap::kSome) != 0;
       all &= (bits & OpacityMap::kAll) != 0;
     }
   }
   if (!some) return Opacity::kTransparent;
-  return all && !any ? Opacity::kOpaque : Opacity::kMixed;
+  if (any) return has_opaque_sample(in) ? Opacity::kOpaque : Opacity::kMixed;
+  return all ? Opacity::kOpaque : Opacity::kMixed;
 }
 
 }  // namespace svdag

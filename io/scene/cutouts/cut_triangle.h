@@ -47,7 +47,9 @@ class CutPlane {
   }
 
  private:
+  struct InCube;
   Opacity decide(const LatticePoint& corner, int64_t side, bool any) const noexcept;
+  bool has_opaque_sample(const InCube& in) const noexcept;
 
   const CutOut* cut_;
   double margin_;                     // kCutMargin, in lattice units

@@ -29,8 +29,6 @@ OpacityMap::OpacityMap(const AlphaImage& image, Wrap wrap_u, Wrap wrap_v, bool n
       v_{image.height(), wrap_v},
       nearest_(nearest),
       shift_(nearest ? 0 : 0.5) {
-  // Samples are more than opaque, so that rounding in the plain decision does not matter.
-  constexpr double kSurely = 0x1p-10;
   const auto resized = [](int64_t columns, int64_t rows) {
     Level level{columns + kMaxBlocks - 1, columns, rows, {}};
     level.bits.resize(size_t(level.pitch * rows));

@@ -32,6 +32,8 @@ class OpacityMap {
  public:
   static constexpr uint8_t kSome = 1, kAll = 2, kSample = 4;
   static constexpr int kMaxBlocks = 4;  // of a side of a rectangle
+  // Samples exceed the threshold by so much that rounding in the plain decision does not matter.
+  static constexpr double kSurely = 0x1p-10;
 
   // Of cells, before they are wrapped. Cell i begins at the centre of texel i, or at its edge if
   // sampled to the nearest.
