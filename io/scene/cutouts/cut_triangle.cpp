@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <utility>
 
 namespace svdag {
 namespace {
+
+constexpr double kError = 0x1p-36;  // of a linear function, by the sizes of its terms
 
 struct TexturedPoint {
   double x[3];
@@ -137,6 +140,13 @@ CutPlane::CutPlane(const CutOut& cut, const CutTriangle& t, int64_t voxel) noexc
     by_u_[k] = (v2 * e1[k] - v1 * e2[k]) / area;
     by_v_[k] = (u1 * e2[k] - u2 * e1[k]) / area;
   }
+  for (int k = 0; k < 3; ++k) {
+    if (std::abs(normal_[k]) > std::abs(normal_[axis_])) axis_ = k;
+    u_span_ += std::abs(u_by_[k]);
+    v_span_ += std::abs(v_by_[k]);
+    by_span_[k] = std::abs(by_u_[k]) + std::abs(by_v_[k]);
+    for (int e = 0; e < 3; ++e) edge_span_[e] += std::abs(edge_by_[e][k]);
+  }
   edge_by_u_[1] = v2 / area, edge_by_v_[1] = -u2 / area;
   edge_by_u_[2] = -v1 / area, edge_by_v_[2] = u1 / area;
   edge_by_u_[0] = -edge_by_u_[1] - edge_by_u_[2];
@@ -145,77 +155,97 @@ CutPlane::CutPlane(const CutOut& cut, const CutTriangle& t, int64_t voxel) noexc
 
 // A cube, relative to its centre.
 struct CutPlane::InCube {
-  double distance;     // of the centre from the plane
-  TexturePoint foot;   // texture coordinates of the point of the plane that is next to the centre
-  double inside[3];    // what a point may be away along each axis, and surely is in the cube
-  int edges = 0;       // that meet the cube
-  int edge[3];         // their numbers
-  double edge_at[3];   // their barycentric coordinates at the foot
-  double edge_in[3];   // where a point surely is in the triangle
+  double half;        // of a side, and twice the margin
+  double reach = 0;   // the size of coordinates from v0
+  double to[3];       // from v0 to the centre
+  double distance = 0;  // of the centre from the plane
+  TexturePoint foot;    // texture coordinates of the point of the plane that is next to the centre
+  double inside;      // what a point may be away along each axis, and surely is in the cube
+  int edges = 0;      // that meet the cube
+  int edge[3];        // their numbers
+  double edge_at[3];  // their barycentric coordinates at the foot
+  double edge_error[3];
 };
 
-// Looks at points of the plane on the line through the centre along the longest axis of the normal,
-// and in the corners of the cube around it.
-bool CutPlane::has_opaque_sample(const InCube& in) const noexcept {
-  int w = 0;
-  for (int k = 1; k < 3; ++k) {
-    if (std::abs(normal_[k]) > std::abs(normal_[w])) w = k;
+CutPlane::InCube CutPlane::place(const LatticePoint& corner, int64_t side) const noexcept {
+  InCube in;
+  in.half = double(side) / 2 + 2 * margin_;
+  in.foot = {u_, v_};
+  for (int k = 0; k < 3; ++k) {
+    in.to[k] = double(corner[k] - start_[k]) + double(side) / 2;
+    in.reach += std::abs(in.to[k]);
+    in.distance += normal_[k] * in.to[k];
+    in.foot.u += u_by_[k] * in.to[k];
+    in.foot.v += v_by_[k] * in.to[k];
   }
-  const int a = (w + 1) % 3, b = (w + 2) % 3;
-  const auto height = [&](double x, double y) {
-    return -(in.distance + normal_[a] * x + normal_[b] * y) / normal_[w];
-  };
-  const double middle = height(0, 0);
-  const bool has_middle = std::abs(middle) <= in.inside[w];
-  for (int n = has_middle ? 0 : 1; n < 5; ++n) {
+  in.inside = double(side) / 2 - in.reach * kError;
+  for (int e = 0; e < 3; ++e) {
+    const double* const by = edge_by_[e];
+    const double edge = edge_at_[e] + by[0] * in.to[0] + by[1] * in.to[1] + by[2] * in.to[2];
+    const double error = (1 + edge_span_[e] * in.reach) * kError;
+    if (edge - edge_span_[e] * in.half > error) continue;
+    in.edge[in.edges] = e;
+    in.edge_at[in.edges] = edge;
+    in.edge_error[in.edges++] = error;
+  }
+  return in;
+}
+
+// Whether the triangle surely has the point of the plane that is p away from the centre; *at: its
+// texture coordinates.
+bool CutPlane::has_point(const InCube& in, const double p[3], TexturePoint* at) const noexcept {
+  *at = {in.foot.u + u_by_[0] * p[0] + u_by_[1] * p[1] + u_by_[2] * p[2],
+         in.foot.v + v_by_[0] * p[0] + v_by_[1] * p[1] + v_by_[2] * p[2]};
+  bool is_inside = true;
+  for (int e = 0; e < in.edges; ++e) {
+    const double* const by = edge_by_[in.edge[e]];
+    is_inside &= in.edge_at[e] + by[0] * p[0] + by[1] * p[1] + by[2] * p[2] >= in.edge_error[e];
+  }
+  return is_inside;
+}
+
+// Looks at the point of the plane on the line through the centre along the longest axis of the
+// normal.
+bool CutPlane::has_opaque_middle(const InCube& in) const noexcept {
+  double p[3] = {0, 0, 0};
+  p[axis_] = -in.distance / normal_[axis_];
+  if (std::abs(p[axis_]) > in.inside) return false;
+  TexturePoint at;
+  return has_point(in, p, &at) && cut_->map->opacity_at(at.u, at.v) == Opacity::kOpaque;
+}
+
+// Looks at the points of the plane in the corners of the cube around that line.
+bool CutPlane::has_opaque_corner(const InCube& in) const noexcept {
+  const int w = axis_, a = (w + 1) % 3, b = (w + 2) % 3;
+  const double middle = -in.distance / normal_[w];
+  for (int n = 0; n < 5; ++n) {
     double p[3];
-    p[a] = n == 0 ? 0 : (n & 1) != 0 ? in.inside[a] : -in.inside[a];
-    p[b] = n == 0 ? 0 : n <= 2 ? in.inside[b] : -in.inside[b];
-    p[w] = height(p[a], p[b]);
-    if (std::abs(p[w]) > in.inside[w]) {
-      if (!has_middle) continue;
-      const double limit = std::copysign(in.inside[w], p[w]);
+    p[a] = n == 4 ? 0 : (n & 1) != 0 ? in.inside : -in.inside;
+    p[b] = n == 4 ? 0 : (n & 2) != 0 ? in.inside : -in.inside;
+    p[w] = middle - (normal_[a] * p[a] + normal_[b] * p[b]) / normal_[w];
+    if (std::abs(p[w]) > in.inside) {
+      if (std::abs(middle) > in.inside) continue;
+      const double limit = std::copysign(in.inside, p[w]);
       const double t = 0.999 * (limit - middle) / (p[w] - middle);
       p[a] *= t;
       p[b] *= t;
       p[w] = middle + t * (p[w] - middle);
     }
-    TexturePoint at = in.foot;
-    for (int k = 0; k < 3; ++k) {
-      at.u += u_by_[k] * p[k];
-      at.v += v_by_[k] * p[k];
-    }
-    bool is_inside = true;
-    for (int e = 0; e < in.edges; ++e) {
-      const double* const by = edge_by_[in.edge[e]];
-      is_inside &= in.edge_at[e] + by[0] * p[0] + by[1] * p[1] + by[2] * p[2] >= in.edge_in[e];
-    }
-    if (is_inside && alpha_at(*cut_, at) >= cut_->threshold + OpacityMap::kSurely) return true;
+    TexturePoint at;
+    if (has_point(in, p, &at) && alpha_at(*cut_, at) >= cut_->threshold + OpacityMap::kSurely)
+      return true;
   }
   return false;
 }
 
 Opacity CutPlane::decide(const LatticePoint& corner, int64_t side, bool any) const noexcept {
-  constexpr double kError = 0x1p-36;  // of a function, by the sizes of its terms
-  const double half = double(side) / 2 + 2 * margin_;
-  TextureBox box = box_;
   InCube in;
-  in.distance = 0;
-  in.foot = {u_, v_};
-  double to[3], reach = 0;  // from v0 to the cube's centre
+  TextureBox box = box_;
   if (is_linear_) {
-    double half_u = std::abs(u_), half_v = std::abs(v_), span_u = 0, span_v = 0;
-    for (int k = 0; k < 3; ++k) {
-      to[k] = double(corner[k] - start_[k]) + double(side) / 2;
-      reach += std::abs(to[k]);
-      in.distance += normal_[k] * to[k];
-      in.foot.u += u_by_[k] * to[k];
-      in.foot.v += v_by_[k] * to[k];
-      span_u += std::abs(u_by_[k]);
-      span_v += std::abs(v_by_[k]);
-    }
-    half_u = span_u * half + (half_u + span_u * reach) * kError;
-    half_v = span_v * half + (half_v + span_v * reach) * kError;
+    in = place(corner, side);
+    if (any && has_opaque_middle(in)) return Opacity::kOpaque;
+    const double half_u = u_span_ * in.half + (std::abs(u_) + u_span_ * in.reach) * kError;
+    const double half_v = v_span_ * in.half + (std::abs(v_) + v_span_ * in.reach) * kError;
     box.low = {std::max(box.low.u, in.foot.u - half_u), std::max(box.low.v, in.foot.v - half_v)};
     box.high = {std::min(box.high.u, in.foot.u + half_u), std::min(box.high.v, in.foot.v + half_v)};
     if (box.low.u > box.high.u || box.low.v > box.high.v) return Opacity::kTransparent;
@@ -224,71 +254,91 @@ Opacity CutPlane::decide(const LatticePoint& corner, int64_t side, bool any) con
   const Opacity opacity =
       opacity_near(*cut_, {(box.low.u + box.high.u) / 2, (box.low.v + box.high.v) / 2},
                    (box.high.u - box.low.u) / 2, (box.high.v - box.low.v) / 2, &blocks);
-  if (opacity != Opacity::kMixed || blocks.columns == 0 || !is_invertible_ || !is_linear_)
-    return opacity;
+  if (opacity != Opacity::kMixed || !is_linear_) return opacity;
+  if (blocks.columns > 0 && is_invertible_) {
+    const Opacity by_blocks = decide_by_blocks(in, box, blocks, any);
+    if (by_blocks != Opacity::kMixed) return by_blocks;
+  }
+  return any && has_opaque_corner(in) ? Opacity::kOpaque : Opacity::kMixed;
+}
 
+Opacity CutPlane::decide_by_blocks(const InCube& in, const TextureBox& box,
+                                   const OpacityMap::Blocks& blocks, bool any) const noexcept {
   // Of the centre of the first block: its distances from the cube's centre, and its barycentric
   // coordinates. `near`: what a block may be away and still have a point in the cube (in the
   // triangle).
-  const double du = blocks.u - in.foot.u, dv = blocks.v - in.foot.v;
-  const double beyond = std::abs(du) + std::abs(dv) + 8 * blocks.size;
+  const double du = blocks.u - in.foot.u, dv = blocks.v - in.foot.v, size = blocks.size;
+  const double beyond = (std::abs(du) + std::abs(dv) + 16 * size) * kError;
   double at[6], near[6], inside[6], by_column[6], by_row[6];
   for (int k = 0; k < 3; ++k) {
-    const double span = std::abs(by_u_[k]) + std::abs(by_v_[k]);
-    const double error = (reach + span * beyond) * kError;
     at[k] = by_u_[k] * du + by_v_[k] * dv - in.distance * normal_[k];
-    by_column[k] = by_u_[k] * blocks.size;
-    by_row[k] = by_v_[k] * blocks.size;
-    near[k] = half + span * blocks.size / 2 + error;
-    inside[k] = in.inside[k] = double(side) / 2 - error;
+    by_column[k] = by_u_[k] * size;
+    by_row[k] = by_v_[k] * size;
+    near[k] = in.half + by_span_[k] * (size / 2 + beyond) + in.reach * kError;
+    inside[k] = in.inside - by_span_[k] * beyond;
   }
-  int tests = 3;
-  for (int e = 0; e < 3; ++e) {
-    double edge = edge_at_[e], span = 0;
+  const int tests = 3 + in.edges;
+  for (int k = 3; k < tests; ++k) {
+    const int e = in.edge[k - 3];
+    const double span = edge_by_u_[e] < 0 ? -edge_by_u_[e] : edge_by_u_[e];
+    const double both = span + std::abs(edge_by_v_[e]);
+    at[k] = in.edge_at[k - 3] + edge_by_u_[e] * du + edge_by_v_[e] * dv;
+    by_column[k] = edge_by_u_[e] * size;
+    by_row[k] = edge_by_v_[e] * size;
+    inside[k] = in.edge_error[k - 3] + both * beyond;
+    near[k] = both * size / 2 + edge_span_[e] * 2 * margin_ + inside[k];
+  }
+  // Whether point (i, j) of the texture, in blocks from the first centre, is so near.
+  const auto is_near = [&](double i, double j) {
     for (int k = 0; k < 3; ++k) {
-      edge += edge_by_[e][k] * to[k];
-      span += std::abs(edge_by_[e][k]);
+      if (std::abs(at[k] + i * by_column[k] + j * by_row[k]) > near[k]) return false;
     }
-    const double in_texture = std::abs(edge_by_u_[e]) + std::abs(edge_by_v_[e]);
-    const double error = (1 + span * reach + in_texture * beyond) * kError;
-    if (edge - span * half > error) continue;  // the edge does not meet the cube
-    in.edge[in.edges] = e;
-    in.edge_at[in.edges] = edge;
-    in.edge_in[in.edges++] = error;
-    at[tests] = edge + edge_by_u_[e] * du + edge_by_v_[e] * dv;
-    by_column[tests] = edge_by_u_[e] * blocks.size;
-    by_row[tests] = edge_by_v_[e] * blocks.size;
-    near[tests] = in_texture * blocks.size / 2 + span * 2 * margin_ + error;
-    inside[tests] = error;
-    ++tests;
-  }
-  const bool by_cells = any && blocks.size == 1 && !cut_->nearest;
-  const double sample = blocks.sample / blocks.size;
+    for (int k = 3; k < tests; ++k) {
+      if (at[k] + i * by_column[k] + j * by_row[k] < -near[k]) return false;
+    }
+    return true;
+  };
+  const auto is_inside = [&](double i, double j) {
+    for (int k = 0; k < 3; ++k) {
+      if (std::abs(at[k] + i * by_column[k] + j * by_row[k]) > inside[k]) return false;
+    }
+    for (int k = 3; k < tests; ++k) {
+      if (at[k] + i * by_column[k] + j * by_row[k] < inside[k]) return false;
+    }
+    return true;
+  };
+  const bool by_cells = any && size == 1 && !cut_->nearest;
+  const double sample = blocks.sample / size;
+  constexpr uint64_t kEach = 0x0101010101010101;
   bool some = false, all = true;
   for (int j = 0; j < blocks.rows; ++j) {
-    for (int i = 0; i < blocks.columns; ++i) {
-      const uint32_t bits = blocks.bits[j] >> 8 * i;
-      if (any && (bits & OpacityMap::kSome) == 0) continue;
-      bool is_near = true, has_sample = (bits & OpacityMap::kSample) != 0;
-      for (int k = 0; k < tests; ++k) {
-        const double x = at[k] + i * by_column[k] + j * by_row[k];
-        is_near &= k < 3 ? std::abs(x) <= near[k] : x >= -near[k];
-        const double y = x + sample * (by_column[k] + by_row[k]);
-        has_sample &= k < 3 ? std::abs(y) <= inside[k] : y >= inside[k];
+    const uint64_t row = blocks.bits[j];
+    if (any) {
+      for (uint64_t left = row & kEach * OpacityMap::kSample; left != 0; left &= left - 1) {
+        if (is_inside(std::countr_zero(left) / 8 + sample, j + sample)) return Opacity::kOpaque;
       }
-      if (any && has_sample) return Opacity::kOpaque;
-      if (!is_near) continue;
-      if (by_cells && !some &&
-          largest_alpha_in_box(*cut_, int64_t(blocks.u) - 1 + i, int64_t(blocks.v) - 1 + j, box) <
-              cut_->threshold)
-        continue;
-      some |= (bits & OpacityMap::kSome) != 0;
-      all &= (bits & OpacityMap::kAll) != 0;
+      for (uint64_t left = some ? 0 : row & kEach * OpacityMap::kSome; left != 0;
+           left &= left - 1) {
+        const int i = std::countr_zero(left) / 8;
+        if (!is_near(i, j)) continue;
+        some = !by_cells || largest_alpha_in_box(*cut_, int64_t(blocks.u) - 1 + i,
+                                                 int64_t(blocks.v) - 1 + j, box) >= cut_->threshold;
+        if (some) break;
+      }
+    } else {
+      for (int i = 0; i < blocks.columns; ++i) {
+        const auto bits = uint8_t(row >> 8 * i);
+        const bool adds = !some && (bits & OpacityMap::kSome) != 0;
+        const bool takes = all && (bits & OpacityMap::kAll) == 0;
+        if ((!adds && !takes) || !is_near(i, j)) continue;
+        some |= adds;
+        all &= !takes;
+        if (some && !all) return Opacity::kMixed;
+      }
     }
   }
   if (!some) return Opacity::kTransparent;
-  if (any) return has_opaque_sample(in) ? Opacity::kOpaque : Opacity::kMixed;
-  return all ? Opacity::kOpaque : Opacity::kMixed;
+  return !any && all ? Opacity::kOpaque : Opacity::kMixed;
 }
 
 }  // namespace svdag

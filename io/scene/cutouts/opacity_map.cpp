@@ -12,7 +12,7 @@ int64_t floor_div(int64_t a, int64_t b) noexcept {
   return a / b - (a % b < 0 ? 1 : 0);
 }
 
-constexpr uint32_t kEach = 0x01010101;  // times a bit: that of each of four blocks
+constexpr uint64_t kEach = 0x0101010101010101;  // times a bit: that of each of eight blocks
 
 }  // namespace
 
@@ -118,7 +118,7 @@ bool OpacityMap::Axis::has_one_turn(Interval cells, int64_t* start) const noexce
 // The lowest level in which an area has few blocks.
 int OpacityMap::level_of(Interval columns, Interval rows) const noexcept {
   const int64_t longest = std::max(columns.last - columns.first, rows.last - rows.first);
-  int level = longest < kMaxBlocks ? 0 : int(std::bit_width(uint64_t(longest))) - 2;
+  int level = longest < kMaxBlocks ? 0 : int(std::bit_width(uint64_t(longest))) - 3;
   const auto is_long = [&](Interval of) {
     return (of.last >> level) - (of.first >> level) >= kMaxBlocks;
   };
@@ -135,11 +135,11 @@ Opacity OpacityMap::look_up(Interval columns, Interval rows, Area* area) const n
   area->y = rows.first >> m;
   area->columns = int((columns.last >> m) - area->x) + 1;
   area->rows = int((rows.last >> m) - area->y) + 1;
-  const uint32_t used = area->columns == kMaxBlocks ? ~uint32_t(0)
-                                                    : (uint32_t(1) << 8 * area->columns) - 1;
-  uint32_t some = 0, all = used & kEach * kAll;
+  const uint64_t used = area->columns == kMaxBlocks ? ~uint64_t(0)
+                                                    : (uint64_t(1) << 8 * area->columns) - 1;
+  uint64_t some = 0, all = used & kEach * kAll;
   for (int j = 0; j < area->rows; ++j) {
-    uint32_t bits;
+    uint64_t bits;
     std::memcpy(&bits, &level.bits[size_t((area->y + j) * level.pitch + area->x)], sizeof(bits));
     area->bits[j] = bits &= used;
     some |= bits;

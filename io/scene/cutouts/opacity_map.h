@@ -3,7 +3,7 @@
 // A cell is the square between the centres of four texels, in which alpha is bilinear, or a texel
 // if the texture is sampled to the nearest. A block of level m has 2^m by 2^m cells. Each has bits
 // for "may have an opaque point", "all points are opaque", and "the sample is": the centre of one
-// of its texels. A rectangle of cells is looked up in at most 4 x 4 blocks. So its cost does not
+// of its texels. A rectangle of cells is looked up in at most 8 x 8 blocks. So its cost does not
 // depend on the size of the texture, nor on the texels of the rectangle.
 #pragma once
 
@@ -31,7 +31,7 @@ inline int64_t floor_of(double x) noexcept {
 class OpacityMap {
  public:
   static constexpr uint8_t kSome = 1, kAll = 2, kSample = 4;
-  static constexpr int kMaxBlocks = 4;  // of a side of a rectangle
+  static constexpr int kMaxBlocks = 8;  // of a side of a rectangle
   // Samples exceed the threshold by so much that rounding in the plain decision does not matter.
   static constexpr double kSurely = 0x1p-10;
 
@@ -50,7 +50,7 @@ class OpacityMap {
     double size = 0;               // of a block, in texels
     double u = 0, v = 0;           // the centre of the first block
     double sample = 0;             // from the centre of a block to its sample, in u and v
-    uint32_t bits[kMaxBlocks] = {};  // of the rows, a byte a block, the lowest first
+    uint64_t bits[kMaxBlocks] = {};  // of the rows, a byte a block, the lowest first
   };
 
   // Points of `threshold` (0 to 255) or more are opaque.
@@ -59,6 +59,15 @@ class OpacityMap {
   // The cells of all points from `low` to `high` of an axis.
   Interval cells(double low, double high) const noexcept {
     return {floor_of(low - shift_), floor_of(high - shift_)};
+  }
+  // Of the cell of a point.
+  Opacity opacity_at(double u, double v) const noexcept {
+    const int64_t i = floor_of(u - shift_), j = floor_of(v - shift_);
+    if (i < -1 || i >= u_.size || j < -1 || j >= v_.size) return opacity({{i, i}, {j, j}});
+    const uint8_t bits = levels_[0].bits[size_t((j + 1) * levels_[0].pitch + i + 1)];
+    return (bits & kAll) != 0    ? Opacity::kOpaque
+           : (bits & kSome) != 0 ? Opacity::kMixed
+                                 : Opacity::kTransparent;
   }
   // kOpaque or kTransparent: all points of the cells are; kMixed decides nothing.
   Opacity opacity(const Rectangle& cells) const noexcept;
@@ -77,7 +86,7 @@ class OpacityMap {
   struct Area {  // in blocks of a level, which are not wrapped
     int level, columns, rows;
     int64_t x, y;
-    uint32_t bits[kMaxBlocks];
+    uint64_t bits[kMaxBlocks];
   };
   struct Level {
     int64_t pitch = 0;
