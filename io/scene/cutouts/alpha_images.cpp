@@ -12,7 +12,8 @@ std::shared_ptr<const AlphaImage> AlphaImages::image(const std::string& name, co
     MemoryBudget::Reservation memory;
     const std::vector<std::byte> bytes = read(&memory);
     AlphaTexels texels = alpha_of_image({bytes, name, sandbox_}, budget_);
-    auto held = budget_->reserve(AlphaImage::bytes(texels.width, texels.height), "alpha of a texture");
+    auto held =
+        budget_->reserve(AlphaImage::bytes(texels.width, texels.height), "alpha of a texture");
     return images_[name] = std::make_shared<AlphaImage>(texels.width, texels.height,
                                                         std::move(texels.alpha), std::move(held));
   } catch (const Error& error) {

@@ -134,8 +134,8 @@ Opacity opacity_of_few(const CutOut& cut, const OpacityMap::Rectangle& cells,
 }  // namespace
 
 CutOut with_map(CutOut cut) {
-  cut.map = std::make_shared<OpacityMap>(*cut.image, cut.wrap_u, cut.wrap_v, cut.nearest,
-                                         cut.threshold);
+  cut.map =
+      std::make_shared<OpacityMap>(*cut.image, cut.wrap_u, cut.wrap_v, cut.nearest, cut.threshold);
   return cut;
 }
 

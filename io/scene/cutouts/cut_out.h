@@ -4,11 +4,11 @@
 // between the centres of four texels otherwise (glTF 2.0, 3.8.4): what a viewer shows from near.
 //
 // A polygon in the plane of the texture is decided by halving the rectangle of cells that it meets
-// (io/scene/cutouts/opacity_map.h). Where a rectangle is neither opaque nor transparent, both halves
-// are looked at, down to single cells. There the largest alpha is at a corner of the polygon or on
-// an edge, as a bilinear function has no maximum inside. So the cost grows with the border of the
-// opaque part, not with the texels. Rejected: pieces of triangles along the texels (cracks, and work that grows with the
-// texels).
+// (io/scene/cutouts/opacity_map.h). Where a rectangle is neither opaque nor transparent, both
+// halves are looked at, down to single cells. There the largest alpha is at a corner of the polygon
+// or on an edge, as a bilinear function has no maximum inside. So the cost grows with the border of
+// the opaque part, not with the texels. Rejected: pieces of triangles along the texels (cracks, and
+// work that grows with the texels).
 #pragma once
 
 #include <array>
@@ -74,7 +74,8 @@ Opacity opacity_near(const CutOut& cut, const TexturePoint& centre, double half_
                      OpacityMap::Blocks* blocks) noexcept;
 
 // The largest alpha of a bilinear texture in the part of the box in cell i of row j.
-double largest_alpha_in_box(const CutOut& cut, int64_t i, int64_t j, const TextureBox& box) noexcept;
+double largest_alpha_in_box(const CutOut& cut, int64_t i, int64_t j,
+                            const TextureBox& box) noexcept;
 
 // Whether a point of the polygon is opaque. A polygon in which more than 2^14 rectangles decide
 // nothing is taken for opaque.

@@ -147,6 +147,10 @@ CutPlane::CutPlane(const CutOut& cut, const CutTriangle& t, int64_t voxel) noexc
     by_span_[k] = std::abs(by_u_[k]) + std::abs(by_v_[k]);
     for (int e = 0; e < 3; ++e) edge_span_[e] += std::abs(edge_by_[e][k]);
   }
+  for (int k = 0; k < 3; ++k) {
+    u_across_ += std::abs(u_by_[k] - u_by_[axis_] * (n[k] / n[axis_]));
+    v_across_ += std::abs(v_by_[k] - v_by_[axis_] * (n[k] / n[axis_]));
+  }
   edge_by_u_[1] = v2 / area, edge_by_v_[1] = -u2 / area;
   edge_by_u_[2] = -v1 / area, edge_by_v_[2] = u1 / area;
   edge_by_u_[0] = -edge_by_u_[1] - edge_by_u_[2];
@@ -155,15 +159,15 @@ CutPlane::CutPlane(const CutOut& cut, const CutTriangle& t, int64_t voxel) noexc
 
 // A cube, relative to its centre.
 struct CutPlane::InCube {
-  double half;        // of a side, and twice the margin
-  double reach = 0;   // the size of coordinates from v0
-  double to[3];       // from v0 to the centre
+  double half;          // of a side, and twice the margin
+  double reach = 0;     // the size of coordinates from v0
+  double to[3];         // from v0 to the centre
   double distance = 0;  // of the centre from the plane
   TexturePoint foot;    // texture coordinates of the point of the plane that is next to the centre
-  double inside;      // what a point may be away along each axis, and surely is in the cube
-  int edges = 0;      // that meet the cube
-  int edge[3];        // their numbers
-  double edge_at[3];  // their barycentric coordinates at the foot
+  double inside;        // what a point may be away along each axis, and surely is in the cube
+  int edges = 0;        // that meet the cube
+  int edge[3];          // their numbers
+  double edge_at[3];    // their barycentric coordinates at the foot
   double edge_error[3];
 };
 
@@ -244,10 +248,17 @@ Opacity CutPlane::decide(const LatticePoint& corner, int64_t side, bool any) con
   if (is_linear_) {
     in = place(corner, side);
     if (any && has_opaque_middle(in)) return Opacity::kOpaque;
-    const double half_u = u_span_ * in.half + (std::abs(u_) + u_span_ * in.reach) * kError;
-    const double half_v = v_span_ * in.half + (std::abs(v_) + v_span_ * in.reach) * kError;
-    box.low = {std::max(box.low.u, in.foot.u - half_u), std::max(box.low.v, in.foot.v - half_v)};
-    box.high = {std::min(box.high.u, in.foot.u + half_u), std::min(box.high.v, in.foot.v + half_v)};
+    const double error_u = (std::abs(u_) + (u_span_ + u_across_) * in.reach) * kError;
+    const double error_v = (std::abs(v_) + (v_span_ + v_across_) * in.reach) * kError;
+    const auto limit = [&](const TexturePoint& centre, double u_span, double v_span) {
+      const double half_u = u_span * in.half + error_u, half_v = v_span * in.half + error_v;
+      box.low = {std::max(box.low.u, centre.u - half_u), std::max(box.low.v, centre.v - half_v)};
+      box.high = {std::min(box.high.u, centre.u + half_u), std::min(box.high.v, centre.v + half_v)};
+    };
+    limit(in.foot, u_span_, v_span_);
+    const double middle = -in.distance / normal_[axis_];
+    limit({in.foot.u + u_by_[axis_] * middle, in.foot.v + v_by_[axis_] * middle}, u_across_,
+          v_across_);
     if (box.low.u > box.high.u || box.low.v > box.high.v) return Opacity::kTransparent;
   }
   OpacityMap::Blocks blocks;
@@ -264,9 +275,9 @@ Opacity CutPlane::decide(const LatticePoint& corner, int64_t side, bool any) con
 
 Opacity CutPlane::decide_by_blocks(const InCube& in, const TextureBox& box,
                                    const OpacityMap::Blocks& blocks, bool any) const noexcept {
-  // Of the centre of the first block: its distances from the cube's centre, and its barycentric
-  // coordinates. `near`: what a block may be away and still have a point in the cube (in the
-  // triangle).
+  // Of the centre of the first block: its distances from the cube's centre along the axes, then its
+  // barycentric coordinates. `near`: the largest distances (least coordinates) of a block that may
+  // have a point in the cube and the triangle. `inside`: those of a point that surely is in both.
   const double du = blocks.u - in.foot.u, dv = blocks.v - in.foot.v, size = blocks.size;
   const double beyond = (std::abs(du) + std::abs(dv) + 16 * size) * kError;
   double at[6], near[6], inside[6], by_column[6], by_row[6];
@@ -280,47 +291,36 @@ Opacity CutPlane::decide_by_blocks(const InCube& in, const TextureBox& box,
   const int tests = 3 + in.edges;
   for (int k = 3; k < tests; ++k) {
     const int e = in.edge[k - 3];
-    const double span = edge_by_u_[e] < 0 ? -edge_by_u_[e] : edge_by_u_[e];
-    const double both = span + std::abs(edge_by_v_[e]);
+    const double span = std::abs(edge_by_u_[e]) + std::abs(edge_by_v_[e]);
     at[k] = in.edge_at[k - 3] + edge_by_u_[e] * du + edge_by_v_[e] * dv;
     by_column[k] = edge_by_u_[e] * size;
     by_row[k] = edge_by_v_[e] * size;
-    inside[k] = in.edge_error[k - 3] + both * beyond;
-    near[k] = both * size / 2 + edge_span_[e] * 2 * margin_ + inside[k];
+    inside[k] = in.edge_error[k - 3] + span * beyond;
+    near[k] = -(span * size / 2 + edge_span_[e] * 2 * margin_ + inside[k]);
   }
-  // Whether point (i, j) of the texture, in blocks from the first centre, is so near.
-  const auto is_near = [&](double i, double j) {
-    for (int k = 0; k < 3; ++k) {
-      if (std::abs(at[k] + i * by_column[k] + j * by_row[k]) > near[k]) return false;
-    }
-    for (int k = 3; k < tests; ++k) {
-      if (at[k] + i * by_column[k] + j * by_row[k] < -near[k]) return false;
-    }
-    return true;
-  };
-  const auto is_inside = [&](double i, double j) {
-    for (int k = 0; k < 3; ++k) {
-      if (std::abs(at[k] + i * by_column[k] + j * by_row[k]) > inside[k]) return false;
-    }
-    for (int k = 3; k < tests; ++k) {
-      if (at[k] + i * by_column[k] + j * by_row[k] < inside[k]) return false;
+  // Whether point (i, j) of the texture, in blocks from the first centre, is within a bound.
+  const auto is_within = [&](double i, double j, const double bound[6]) {
+    for (int k = 0; k < tests; ++k) {
+      const double x = at[k] + i * by_column[k] + j * by_row[k];
+      if (k < 3 ? std::abs(x) > bound[k] : x < bound[k]) return false;
     }
     return true;
   };
   const bool by_cells = any && size == 1 && !cut_->nearest;
   const double sample = blocks.sample / size;
-  constexpr uint64_t kEach = 0x0101010101010101;
   bool some = false, all = true;
   for (int j = 0; j < blocks.rows; ++j) {
     const uint64_t row = blocks.bits[j];
     if (any) {
-      for (uint64_t left = row & kEach * OpacityMap::kSample; left != 0; left &= left - 1) {
-        if (is_inside(std::countr_zero(left) / 8 + sample, j + sample)) return Opacity::kOpaque;
+      for (uint64_t left = row & OpacityMap::kEach * OpacityMap::kSample; left != 0;
+           left &= left - 1) {
+        if (is_within(std::countr_zero(left) / 8 + sample, j + sample, inside))
+          return Opacity::kOpaque;
       }
-      for (uint64_t left = some ? 0 : row & kEach * OpacityMap::kSome; left != 0;
+      for (uint64_t left = some ? 0 : row & OpacityMap::kEach * OpacityMap::kSome; left != 0;
            left &= left - 1) {
         const int i = std::countr_zero(left) / 8;
-        if (!is_near(i, j)) continue;
+        if (!is_within(i, j, near)) continue;
         some = !by_cells || largest_alpha_in_box(*cut_, int64_t(blocks.u) - 1 + i,
                                                  int64_t(blocks.v) - 1 + j, box) >= cut_->threshold;
         if (some) break;
@@ -330,7 +330,7 @@ Opacity CutPlane::decide_by_blocks(const InCube& in, const TextureBox& box,
         const auto bits = uint8_t(row >> 8 * i);
         const bool adds = !some && (bits & OpacityMap::kSome) != 0;
         const bool takes = all && (bits & OpacityMap::kAll) == 0;
-        if ((!adds && !takes) || !is_near(i, j)) continue;
+        if ((!adds && !takes) || !is_within(i, j, near)) continue;
         some |= adds;
         all &= !takes;
         if (some && !all) return Opacity::kMixed;

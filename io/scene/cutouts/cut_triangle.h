@@ -57,16 +57,17 @@ class CutPlane {
   bool has_opaque_corner(const InCube& in) const noexcept;
 
   const CutOut* cut_;
-  double margin_;                     // kCutMargin, in lattice units
-  TextureBox box_;                    // of the corners
-  bool is_linear_ = false;            // false: the triangle is too thin
-  bool is_invertible_ = false;        // false: it is in the texture
-  LatticePoint start_;                // the corner v0 of the triangle
-  double normal_[3];                  // of length 1
-  int axis_ = 0;                      // of its largest coordinate
+  double margin_;               // kCutMargin, in lattice units
+  TextureBox box_;              // of the corners
+  bool is_linear_ = false;      // false: the triangle is too thin
+  bool is_invertible_ = false;  // false: it is in the texture
+  LatticePoint start_;          // the corner v0 of the triangle
+  double normal_[3];            // of length 1
+  int axis_ = 0;                // of its largest coordinate
   // Spans are the sums of the magnitudes of the coefficients before them.
   double u_, v_, u_by_[3], v_by_[3];  // at v0, and by distance from it
   double u_span_ = 0, v_span_ = 0;
+  double u_across_ = 0, v_across_ = 0;     // of points of the plane by the other two axes
   double by_u_[3], by_v_[3], by_span_[3];  // of points of the plane
   // The barycentric coordinates (the second and third, and the first as 1 less these).
   double edge_at_[3] = {1, 0, 0}, edge_by_[3][3], edge_span_[3] = {}, edge_by_u_[3], edge_by_v_[3];

@@ -12,8 +12,6 @@ int64_t floor_div(int64_t a, int64_t b) noexcept {
   return a / b - (a % b < 0 ? 1 : 0);
 }
 
-constexpr uint64_t kEach = 0x0101010101010101;  // times a bit: that of each of eight blocks
-
 }  // namespace
 
 int64_t wrapped_texel(int64_t i, int64_t size, Wrap wrap) noexcept {
@@ -43,9 +41,9 @@ OpacityMap::OpacityMap(const AlphaImage& image, Wrap wrap_u, Wrap wrap_v, bool n
       const int64_t column = wrapped_texel(x - 1, u_.size, wrap_u);
       const int64_t next_column = wrapped_texel(x - 1 + next, u_.size, wrap_u);
       const uint8_t alpha = image.at(column, row);
-      const auto [least, largest] = std::minmax({alpha, image.at(next_column, row),
-                                                 image.at(column, row_below),
-                                                 image.at(next_column, row_below)});
+      const auto [least, largest] =
+          std::minmax({alpha, image.at(next_column, row), image.at(column, row_below),
+                       image.at(next_column, row_below)});
       level.bits[size_t(y * level.pitch + x)] =
           uint8_t((largest >= threshold ? kSome : 0) | (least >= threshold ? kAll : 0) |
                   (alpha >= threshold + kSurely ? kSample : 0));
@@ -63,8 +61,8 @@ OpacityMap::OpacityMap(const AlphaImage& image, Wrap wrap_u, Wrap wrap_v, bool n
         const uint8_t bits = below.bits[size_t(y * below.pitch + x)];
         uint8_t& block = above.bits[size_t(y / 2 * above.pitch + x / 2)];
         const uint8_t sample = (x & 1) == sampled && (y & 1) == sampled ? bits & kSample : 0;
-        block = uint8_t(((block | bits) & kSome) | (block & bits & kAll) | (block & kSample) |
-                        sample);
+        block =
+            uint8_t(((block | bits) & kSome) | (block & bits & kAll) | (block & kSample) | sample);
       }
     }
     samples_.push_back(samples_.back() + (sampled << (levels_.size() - 1)));
@@ -135,8 +133,8 @@ Opacity OpacityMap::look_up(Interval columns, Interval rows, Area* area) const n
   area->y = rows.first >> m;
   area->columns = int((columns.last >> m) - area->x) + 1;
   area->rows = int((rows.last >> m) - area->y) + 1;
-  const uint64_t used = area->columns == kMaxBlocks ? ~uint64_t(0)
-                                                    : (uint64_t(1) << 8 * area->columns) - 1;
+  const uint64_t used =
+      area->columns == kMaxBlocks ? ~uint64_t(0) : (uint64_t(1) << 8 * area->columns) - 1;
   uint64_t some = 0, all = used & kEach * kAll;
   for (int j = 0; j < area->rows; ++j) {
     uint64_t bits;
@@ -165,8 +163,8 @@ Opacity OpacityMap::opacity(const Rectangle& cells, Blocks* blocks) const noexce
   int64_t u, v;  // the cells of column 0 and of row 0
   if (!u_.has_one_turn(cells.u, &u) || !v_.has_one_turn(cells.v, &v)) return opacity(cells);
   Area area;
-  const Opacity opacity = look_up({cells.u.first - u, cells.u.last - u},
-                                  {cells.v.first - v, cells.v.last - v}, &area);
+  const Opacity opacity =
+      look_up({cells.u.first - u, cells.u.last - u}, {cells.v.first - v, cells.v.last - v}, &area);
   if (opacity != Opacity::kMixed) return opacity;
   const double half = 0.5 * double(int64_t(1) << area.level);
   blocks->columns = area.columns;

@@ -31,7 +31,8 @@ inline int64_t floor_of(double x) noexcept {
 class OpacityMap {
  public:
   static constexpr uint8_t kSome = 1, kAll = 2, kSample = 4;
-  static constexpr int kMaxBlocks = 8;  // of a side of a rectangle
+  static constexpr uint64_t kEach = 0x0101010101010101;  // times a bit: that of eight blocks
+  static constexpr int kMaxBlocks = 8;                   // of a side of a rectangle
   // Samples exceed the threshold by so much that rounding in the plain decision does not matter.
   static constexpr double kSurely = 0x1p-10;
 
@@ -47,9 +48,9 @@ class OpacityMap {
   // The blocks of a rectangle, which are not wrapped, and how they lie in the texture.
   struct Blocks {
     int columns = 0, rows = 0;
-    double size = 0;               // of a block, in texels
-    double u = 0, v = 0;           // the centre of the first block
-    double sample = 0;             // from the centre of a block to its sample, in u and v
+    double size = 0;                 // of a block, in texels
+    double u = 0, v = 0;             // the centre of the first block
+    double sample = 0;               // from the centre of a block to its sample, in u and v
     uint64_t bits[kMaxBlocks] = {};  // of the rows, a byte a block, the lowest first
   };
 

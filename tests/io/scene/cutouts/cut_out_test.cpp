@@ -38,23 +38,69 @@ CutOut random_cut() {
   cut.wrap_u = Wrap(whole(0, 2));
   cut.wrap_v = Wrap(whole(0, 2));
   cut.nearest = whole(0, 1) == 1;
-  return cut;
+  return with_map(cut);
 }
 
-TEST(AlphaImage, ARangeHoldsItsTexels) {
-  for (int k = 0; k < 300; ++k) {
+// The centre of the texel that a cell begins with is a point of it.
+TEST(OpacityMap, ARectangleIsAsItsCellsAre) {
+  int decided = 0, mixed = 0;
+  for (int k = 0; k < 20000; ++k) {
     const CutOut cut = random_cut();
-    const AlphaImage& image = *cut.image;
-    const int i0 = whole(0, int(image.width()) - 1), i1 = whole(i0, int(image.width()) - 1);
-    const int j0 = whole(0, int(image.height()) - 1), j1 = whole(j0, int(image.height()) - 1);
-    const AlphaRange range = image.range(i0, i1, j0, j1);
-    AlphaRange own;
+    const int i0 = whole(-90, 90), i1 = i0 + whole(0, 12), j0 = whole(-90, 90),
+              j1 = j0 + whole(0, 12);
+    bool some = false, all = true;
     for (int j = j0; j <= j1; ++j) {
-      for (int i = i0; i <= i1; ++i) own.add({image.at(i, j), image.at(i, j)});
+      for (int i = i0; i <= i1; ++i) {
+        const Opacity cell = cut.map->opacity({{i, i}, {j, j}});
+        some |= cell != Opacity::kTransparent;
+        all &= cell == Opacity::kOpaque;
+        EXPECT_EQ(cut.map->opacity_at(i + 0.75, j + 0.75), cell);
+        const bool is_opaque = alpha_at(cut, {i + 0.5, j + 0.5}) >= cut.threshold;
+        EXPECT_TRUE(is_opaque ? cell != Opacity::kTransparent : cell != Opacity::kOpaque);
+      }
     }
-    EXPECT_LE(range.least, own.least);
-    EXPECT_GE(range.largest, own.largest);
+    const Opacity opacity = cut.map->opacity({{i0, i1}, {j0, j1}});
+    if (opacity == Opacity::kMixed) {
+      ++mixed;
+      continue;
+    }
+    ++decided;
+    EXPECT_EQ(opacity == Opacity::kOpaque, all);
+    EXPECT_EQ(opacity == Opacity::kTransparent, !some);
   }
+  EXPECT_GT(decided, 1000);
+  EXPECT_GT(mixed, 1000);
+}
+
+TEST(OpacityMap, BlocksHoldTheirCellsAndSamplesAreOpaque) {
+  int samples = 0;
+  for (int k = 0; k < 20000; ++k) {
+    const CutOut cut = random_cut();
+    const int i0 = whole(-60, 60), i1 = i0 + whole(0, 30), j0 = whole(-60, 60),
+              j1 = j0 + whole(0, 30);
+    OpacityMap::Blocks blocks;
+    if (cut.map->opacity({{i0, i1}, {j0, j1}}, &blocks) != Opacity::kMixed) continue;
+    for (int row = 0; row < (blocks.columns > 0 ? blocks.rows : 0); ++row) {
+      for (int column = 0; column < blocks.columns; ++column) {
+        const auto bits = uint8_t(blocks.bits[row] >> 8 * column);
+        const double u = blocks.u + column * blocks.size, v = blocks.v + row * blocks.size;
+        if ((bits & OpacityMap::kSample) != 0) {
+          ++samples;
+          EXPECT_GT(alpha_at(cut, {u + blocks.sample, v + blocks.sample}), cut.threshold);
+        }
+        for (int n = 0; n < 4; ++n) {
+          const double half = 0.4999 * blocks.size;
+          const TexturePoint p = {u + uniform(-half, half), v + uniform(-half, half)};
+          const double edge = cut.nearest ? 0 : 0.5;
+          if (p.u - edge < i0 || p.u - edge >= i1 + 1 || p.v - edge < j0 || p.v - edge >= j1 + 1)
+            continue;  // a block may reach beyond the rectangle, and the texture
+          const bool is_opaque = alpha_at(cut, p) >= cut.threshold;
+          EXPECT_TRUE(is_opaque ? (bits & OpacityMap::kSome) != 0 : (bits & OpacityMap::kAll) == 0);
+        }
+      }
+    }
+  }
+  EXPECT_GT(samples, 1000);
 }
 
 TEST(CutOut, NoPointNearContradictsTheOpacity) {
@@ -63,7 +109,8 @@ TEST(CutOut, NoPointNearContradictsTheOpacity) {
     const CutOut cut = random_cut();
     const TexturePoint centre{uniform(-60, 60), uniform(-60, 60)};
     const double half_u = uniform(0, 2), half_v = uniform(0, 2);
-    const Opacity opacity = opacity_near(cut, centre, half_u, half_v);
+    OpacityMap::Blocks blocks;
+    const Opacity opacity = opacity_near(cut, centre, half_u, half_v, &blocks);
     if (opacity == Opacity::kMixed) continue;
     ++decided;
     for (int n = 0; n < 20; ++n) {
@@ -109,9 +156,9 @@ TEST(CutOut, AnOpaquePointIsFoundWhereThereIsOne) {
 TEST(CutOut, IsOpaqueIfNoTexelIsTransparent) {
   CutOut cut;
   cut.image = std::make_shared<AlphaImage>(3, 1, std::vector<uint8_t>{255, 128, 200});
-  EXPECT_TRUE(is_opaque(cut));
+  EXPECT_TRUE(cut.is_opaque());
   cut.threshold = 129;
-  EXPECT_FALSE(is_opaque(cut));
+  EXPECT_FALSE(cut.is_opaque());
 }
 
 TEST(CutOut, CoordinatesAreScaledThenRotatedThenMoved) {
@@ -133,6 +180,7 @@ TEST(CutOut, ASaddleIsOpaqueOnlyWhereItIs) {
   cut.image = std::make_shared<AlphaImage>(2, 2, std::vector<uint8_t>{255, 0, 0, 255});
   cut.wrap_u = cut.wrap_v = Wrap::kClamp;
   cut.threshold = 130;
+  cut = with_map(cut);
   TexturePolygon edge;  // through the middle, where the alpha is 127.5
   edge.add({1, 0.5});
   edge.add({1, 1.5});
@@ -142,6 +190,7 @@ TEST(CutOut, ASaddleIsOpaqueOnlyWhereItIs) {
   EXPECT_TRUE(has_opaque_point(cut, edge));
   // Its only opaque points are inside of the edge: 510 t (1 - t).
   cut.threshold = 127;
+  cut = with_map(cut);
   edge.corners[0] = {0.75, 1.25};
   edge.corners[1] = {1.25, 0.75};
   EXPECT_TRUE(has_opaque_point(cut, edge));
@@ -173,34 +222,44 @@ TEST(CutTriangle, OrderAndWindingDoNotMatter) {
   }
 }
 
-// What a larger cube or the linear functions decide is what each voxel decides.
-TEST(CutTriangle, CubesAndPlanesDecideAsVoxelsDo) {
-  int opaque = 0, transparent = 0, by_plane = 0;
-  for (int k = 0; k < 20000; ++k) {
+// What a plane decides of a cube or a voxel is what the plain way decides of each voxel.
+TEST(CutPlane, DecidesAsVoxelsDo) {
+  int opaque = 0, transparent = 0, voxels = 0, cubes = 0;
+  for (int k = 0; k < 40000; ++k) {
     const CutOut cut = random_cut();
     const CutTriangle t = random_triangle(whole(0, 1) == 0 ? 4 * kVoxel : 100000);
     const LatticePoint corner(whole(-2, 0) * kVoxel, whole(-2, 0) * kVoxel, whole(-2, 0) * kVoxel);
     const bool thin = whole(0, 1) == 1;
-    const Opacity cube = opacity_in_cube(cut, t, corner, 2 * kVoxel, kVoxel);
-    const CutPlane plane(cut, t, corner, kVoxel);
+    const CutPlane plane(cut, t, kVoxel);
+    const Opacity cube = plane.in_cube(corner, 2 * kVoxel);
+    const Opacity any = plane.any_in_cube(corner, 2 * kVoxel);
+    cubes += cube != Opacity::kMixed;
     CutOut all = cut;
     all.threshold = 0;
+    all = with_map(all);
+    bool is_met = false, has_opaque = false;
     for (int v = 0; v < 8; ++v) {
       const int x = v & 1, y = v >> 1 & 1, z = v >> 2;
       const LatticePoint at = corner + LatticePoint(x, y, z) * kVoxel;
+      is_met |= is_opaque_in_voxel(all, t, at, kVoxel, false);
+      has_opaque |= is_opaque_in_voxel(cut, t, at, kVoxel, false);
       if (!is_opaque_in_voxel(all, t, at, kVoxel, thin)) continue;  // the triangle misses it
       const bool own = is_opaque_in_voxel(cut, t, at, kVoxel, thin);
       EXPECT_TRUE(cube == Opacity::kMixed || own == (cube == Opacity::kOpaque));
-      const Opacity at_once = plane.in_voxel(x, y, z);
+      const Opacity at_once = thin ? plane.in_cube(at, kVoxel) : plane.any_in_cube(at, kVoxel);
       EXPECT_TRUE(at_once == Opacity::kMixed || own == (at_once == Opacity::kOpaque));
-      by_plane += at_once != Opacity::kMixed;
+      voxels += at_once != Opacity::kMixed;
       opaque += own;
       transparent += !own;
     }
+    if (is_met) {
+      EXPECT_TRUE(any == Opacity::kMixed || has_opaque == (any == Opacity::kOpaque));
+    }
   }
-  EXPECT_GT(opaque, 500);
-  EXPECT_GT(transparent, 500);
-  EXPECT_GT(by_plane, 500);
+  EXPECT_GT(opaque, 1000);
+  EXPECT_GT(transparent, 1000);
+  EXPECT_GT(voxels, 2000);
+  EXPECT_GT(cubes, 1000);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 """Cut-outs of shared scenes against an independent reader: every opaque point is in a set voxel, and a texel that a
 voxel stands on is cut out exactly.
 
-Usage: points_test.py PROGRAMS. Written from the specifications of glTF and PNG alone; alpha is evaluated here. Points
+Usage: points_test.py PROGRAMS [POINTS]. Written from the specifications of glTF and PNG alone; alpha is evaluated here. Points
 nearer than 2^-7 voxel to a face, or nearer than 1/255 to the threshold, decide nothing.
 """
 import json
@@ -22,7 +22,8 @@ import independent_glb as independent  # noqa: E402
 
 PROGRAMS = pathlib.Path(sys.argv.pop(1)).resolve()
 SCENES = os.environ.get("SVDAG_SCENES")
-POINTS = 40000
+POINTS = int(sys.argv.pop(1)) if len(sys.argv) > 1 else 40000
+FOREST = "stk_black_forest_textured.glb"
 independent.WIDTH["VEC2"] = 2
 
 
@@ -114,7 +115,70 @@ class Material:
         return self.factor * (above * (1 - y) + below * y)
 
 
-def cut_triangles(glb, max_materials):
+def clip(polygon, axis, limit, sign):
+    """The part of a polygon (rows of numbers) with sign * (number of the axis - limit) >= 0."""
+    out = []
+    for p, q in zip(polygon, polygon[1:] + polygon[:1]):
+        a, b = sign * (p[axis] - limit), sign * (q[axis] - limit)
+        if a >= 0:
+            out.append(p)
+        if a * b < 0:
+            out.append(tuple(x + (y - x) * (a / (a - b)) for x, y in zip(p, q)))
+    return out
+
+
+def largest_alpha(material, polygon, enough):
+    """The largest alpha in a polygon of the texture, in texels; or one that is enough."""
+    height, width = material.alpha.shape
+    shift = 0 if material.nearest else 0.5
+    size = np.array([width, height])
+    largest = material.alpha_at(np.array(polygon) / size).max()
+    low, high = (np.floor(np.array([f(x) for x in zip(*polygon)]) - shift).astype(int) for f in (min, max))
+    for j in range(low[1], high[1] + 1):
+        row = clip(clip(polygon, 1, j + shift, 1), 1, j + 1 + shift, -1)
+        for i in range(low[0], high[0] + 1):
+            if largest >= enough:
+                return largest
+            part = clip(clip(row, 0, i + shift, 1), 0, i + 1 + shift, -1)
+            if not part:
+                continue
+            if material.nearest:
+                largest = max(largest, material.factor * material.texel(np.array([i]), np.array([j]))[0])
+                continue
+            # Bilinear, so largest on an edge: at an end, or where the parabola along it is.
+            c = [float(material.factor * material.texel(np.array([i + x]), np.array([j + y]))[0])
+                 for y in (0, 1) for x in (0, 1)]
+            points = [(p[0] - i - 0.5, p[1] - j - 0.5) for p in part]
+            for (x, y), (x2, y2) in zip(points, points[1:] + points[:1]):
+                dx, dy = x2 - x, y2 - y
+                b, cc, d = c[1] - c[0], c[2] - c[0], c[0] - c[1] - c[2] + c[3]
+                square, slope = d * dx * dy, b * dx + cc * dy + d * (x * dy + y * dx)
+                at = [0.0] + ([-slope / (2 * square)] if square < 0 and 0 < -slope / (2 * square) < 1 else [])
+                largest = max([largest] + [c[0] + b * (x + t * dx) + cc * (y + t * dy) + d * (x + t * dx) * (y + t * dy)
+                                           for t in at])
+    return largest
+
+
+def whole_triangles(glb, cut):
+    """The corners (n, 3, 3) of the triangles of all other primitives."""
+    found = []
+    for node, world in zip(glb.doc["nodes"], independent.worlds_of(glb.doc["nodes"])):
+        for primitive in glb.doc["meshes"][node["mesh"]]["primitives"] if "mesh" in node else ():
+            if id(primitive) not in cut:
+                points = independent.transform(world, glb.positions(primitive["attributes"]["POSITION"]))
+                found.append(points[glb.accessor(primitive["indices"])[:, 0]].reshape(-1, 3, 3))
+    return np.concatenate(found)
+
+
+def may_meet(corners, boxes, low, high):
+    """Whether one of the triangles, with their boxes, may meet a box: by its axes and their planes."""
+    near = corners[((boxes[0] <= high) & (boxes[1] >= low)).all(axis=1)]
+    normal = np.cross(near[:, 1] - near[:, 0], near[:, 2] - near[:, 0])
+    distance = np.abs((normal * ((low + high) / 2 - near[:, 0])).sum(axis=1))
+    return (distance <= np.abs(normal) @ (high - low) / 2).any()
+
+
+def cut_triangles(glb, max_materials, cut=None):
     """Lists of (material, corners (n, 3, 3) in the world, coordinates (n, 3, 2)) of primitives that are cut."""
     doc, found, materials = glb.doc, [], {}
     for node, world in zip(doc["nodes"], independent.worlds_of(doc["nodes"])):
@@ -124,6 +188,8 @@ def cut_triangles(glb, max_materials):
                 continue
             if number not in materials and len(materials) == max_materials:
                 continue
+            if cut is not None:
+                cut.add(id(primitive))
             if number not in materials:
                 materials[number] = Material(glb, doc["materials"][number])
             index = glb.accessor(primitive["indices"])[:, 0]
@@ -155,15 +221,14 @@ class Points(unittest.TestCase):
 
     def test_every_opaque_point_is_in_a_set_voxel(self):
         rng = np.random.default_rng(7)
-        scene = "stk_black_forest_textured.glb"
-        parts = cut_triangles(independent.Glb(pathlib.Path(SCENES) / scene), 6)
+        parts = cut_triangles(independent.Glb(pathlib.Path(SCENES) / FOREST), 6)
         corners = np.concatenate([c for _, c, _ in parts])
         uvs = np.concatenate([u for _, _, u in parts])
         materials = [m for m, _, _ in parts]
         of = np.repeat(np.arange(len(parts)), [len(c) for _, c, _ in parts])
         for rule in ("conservative", "thin"):
             for resolution in (1024, 8192):
-                info = self.bake(scene, resolution, rule)
+                info = self.bake(FOREST, resolution, rule)
                 voxel, origin = info["grid"]["voxel_size"], np.array(info["grid"]["corner"])
                 chosen = rng.integers(len(corners), size=POINTS)
                 weights = rng.dirichlet((1, 1, 1), POINTS)
@@ -216,6 +281,47 @@ class Points(unittest.TestCase):
                 self.assertTrue((alpha[keep] < cutoff[keep] - 1).sum() > POINTS / 20)
                 wrong = np.flatnonzero(opaque)[~are_set(self.file, p[opaque])]
                 self.assertEqual(len(wrong), 0, f"{rule} {resolution}: {p[wrong[:3]]}")
+
+    def test_every_set_voxel_has_an_opaque_point(self):
+        rng, cut = np.random.default_rng(8), set()
+        glb = independent.Glb(pathlib.Path(SCENES) / FOREST)
+        parts = cut_triangles(glb, 100, cut)
+        corners = np.concatenate([c for _, c, _ in parts])
+        uvs = np.concatenate([u for _, _, u in parts])
+        of = np.repeat(np.arange(len(parts)), [len(c) for _, c, _ in parts])
+        lows, highs = corners.min(axis=1), corners.max(axis=1)
+        whole = whole_triangles(glb, cut)
+        boxes = whole.min(axis=1), whole.max(axis=1)
+        for resolution in (2048, 16384):
+            info = self.bake(FOREST, resolution, "conservative")
+            voxel, origin = info["grid"]["voxel_size"], np.array(info["grid"]["corner"])
+            chosen = rng.integers(len(corners), size=max(1, POINTS // 400))
+            p = (corners[chosen] * rng.dirichlet((1, 1, 1), len(chosen))[:, :, None]).sum(axis=1)
+            cubes = np.unique(np.floor((p - origin) / voxel), axis=0)
+            seen = {True: 0, False: 0}
+            for cube, is_set in zip(cubes, are_set(self.file, (cubes + 0.5) * voxel + origin)):
+                low, high = cube * voxel + origin, (cube + 1) * voxel + origin
+                if may_meet(whole, boxes, low - voxel / 64, high + voxel / 64):
+                    continue
+                # The snap moves corners by up to 2^-24 voxel. Alpha changes by 255 in a texel at most.
+                reach = voxel * 2.0 ** -16 * (1 if is_set else -1)
+                largest = 0.0
+                for k in np.flatnonzero(((lows <= high + reach) & (highs >= low - reach)).all(axis=1)):
+                    material = parts[of[k]][0]
+                    size = material.alpha.shape[::-1]
+                    polygon = [(*xyz, *(uv * size)) for xyz, uv in zip(corners[k].tolist(), uvs[k])]
+                    for axis in range(3):
+                        polygon = clip(polygon, axis, low[axis] - reach, 1)
+                        polygon = clip(polygon, axis, high[axis] + reach, -1)
+                    if polygon:
+                        alpha = largest_alpha(material, [q[3:] for q in polygon], material.cutoff + 1)
+                        largest = max(largest, alpha - material.cutoff + 256)
+                if largest == 0:
+                    continue  # the triangle meets the voxel at its border only, if at all
+                seen[bool(is_set)] += 1
+                self.assertTrue(largest >= 255 if is_set else largest < 257, f"{resolution}: {cube}, {largest - 256}")
+            self.assertGreater(min(seen.values()), 0, seen)
+            print(f"{resolution}^3: {seen[True]:,} set voxels and {seen[False]:,} empty ones decided alike", file=sys.stderr)
 
     def test_a_voxel_on_a_transparent_texel_is_cut_out(self):
         # The quad of 128 x 128 texels, one a voxel, has 4,628 transparent ones.
