@@ -103,12 +103,14 @@ test-python: deps
 	$(call install,$(PYTHON_PACKAGES))
 	@$(PYTHON) tests/python/run.py
 
-wheel: deps
+# Of the release build; only the module is compiled (a minute).
+wheel: build
 	$(call install,$(PYTHON_PACKAGES))
 	@$(PYTHON) -m venv build/python/tools
 	@build/python/tools/bin/pip install -q --disable-pip-version-check $(WHEEL_TOOLS)
 	@rm -rf build/wheel
-	@build/python/tools/bin/pip wheel -q --disable-pip-version-check --no-build-isolation . --no-deps -w build/wheel
+	@build/python/tools/bin/pip wheel -q --disable-pip-version-check --no-build-isolation . --no-deps -w build/wheel \
+	  --config-settings build-dir=$(PROGRAMS) --config-settings cmake.define.SVDAG_TESTS=true
 
 test-view: build
 	$(call install,$(VIEW_PACKAGES))

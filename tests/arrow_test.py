@@ -137,7 +137,7 @@ LIBRARIES = {
     r"stb_?|stb/": r"verify/trace/image\.cpp|io/scene/decoders/image\.cpp|tests/io/scene/decoders/image_test\.cpp",
     r"stxxl/": r"tests/bench/peers/stxxl\.cpp",
     r"CGAL/": r"verify/judge/judge_cgal\.cpp|tests/bench/peers/cgal\.cpp",
-    r"openvdb/": r"verify/judge/judge_vdb\.cpp|io/formats/vdb/vdb_trees\.h",
+    r"openvdb/": r"verify/judge/judge_vdb\.cpp|io/formats/vdb/vdb_trees\.h|io/openvdb_grids\.h",
     r"nanovdb/": r"io/formats/vdb/nvdb\.cpp|tests/io/formats/vdb/nvdb_test\.cpp",
     r"embree": r"verify/trace/judge/embree\.cpp|tests/bench/peers/embree\.cpp",
     r"hwy/": r"builder/overlap/kernels/kernel[\w-]*\.(h|cpp)",

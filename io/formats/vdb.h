@@ -8,9 +8,9 @@
 // transform(i, j, k) is the *centre* of voxel (i, j, k) of a VDB grid, but the corner of ours.
 // IndexToWorld maps to centres for both; voxel_centres() adds half a voxel to ours.
 //
-// OpenVDB's headers take 45 s and 0.9 GB per source file, so only the sources in io/formats/vdb/
-// include them, and this header uses none of its types. Its writer does not detect a full disk: a
-// written file is read back and compared before it is renamed to its final name.
+// OpenVDB's headers take up to 20 s and 1.2 GB per source file, so only the sources in
+// io/formats/vdb/ include them, and this header uses none of its types. Its writer does not detect
+// a full disk: a written file is read back and compared before it is renamed to its final name.
 #pragma once
 
 #include <array>

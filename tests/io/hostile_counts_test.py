@@ -323,11 +323,13 @@ class HostileCounts(unittest.TestCase):
         behind = 0
         for which, field in enumerate(fields):
             HostileCounts.fields += 1
-            for value in VALUES:
-                content = field(value)
+            # A narrow field takes some values alike.
+            contents = {field(value): value for value in reversed(VALUES)}
+            contents.pop(data, None)
+            for content, value in contents.items():
                 write(content)
                 answer = run(command, self.folder)
-                behind += content != data and bool(is_behind_checksums(answer))
+                behind += bool(is_behind_checksums(answer))
                 self.check(f"{path.name}, field {which} = {value}", answer, base, len(data))
         self.assertGreater(behind, 0, "no changed field passed the checksums")
 

@@ -1,8 +1,9 @@
 #include "verify/judge/judge_vdb.h"
 
-#include <openvdb/openvdb.h>
 #include <openvdb/tools/MeshToVolume.h>
 #include <tbb/global_control.h>
+
+#include "io/openvdb_grids.h"
 
 namespace svdag {
 namespace {

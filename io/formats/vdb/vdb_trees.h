@@ -4,9 +4,9 @@
 #include <openvdb/io/Archive.h>
 #include <openvdb/io/GridDescriptor.h>
 #include <openvdb/io/io.h>
-#include <openvdb/openvdb.h>
 
 #include "io/formats/vdb.h"
+#include "io/openvdb_grids.h"
 
 namespace svdag {
 
