@@ -3,7 +3,7 @@
 # make stress STAGES="tsan packages".
 set -eu
 cd "$(dirname "$0")/../.."
-all="tsan families properties one_hash completion faults report_shot packages fuzzers"
+all="tsan families cut_outs properties one_hash completion faults report_shot packages fuzzers"
 skipped=
 
 may_skip() {  # COMMAND...: exit code 77 means that it cannot run here
@@ -27,6 +27,11 @@ tsan() {
 families() {  # 10^7 decisions per family, grid and rule
   release stress_test
   SVDAG_STRESS_DECISIONS=${DECISIONS:-10000000} build/release/tests/stress_test --gtest_brief=1
+}
+
+cut_outs() {  # a million points for each grid and rule, 2500 voxels for each grid
+  release svdag
+  /usr/bin/python3 -B tests/io/scene/cutouts/points_test.py build/release 1000000
 }
 
 properties() {  # 5000 inputs for each instead of 100
