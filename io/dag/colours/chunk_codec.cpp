@@ -402,40 +402,6 @@ void ChunkEncoder::encode(std::span<const uint32_t> colours, std::vector<uint32_
   emit(words);
 }
 
-const char* chunk_defect(std::span<const uint32_t> words, uint32_t colours) {
-  if (words.empty()) return "a chunk of colours without words";
-  const uint32_t runs = words[0];
-  if (runs == 0 || runs > kChunkColours)
-    return "a chunk of colours with an impossible number of runs";
-  const uint32_t groups = chunk_groups(runs), header_words = chunk_header_words(runs);
-  const uint64_t before = 1 + uint64_t(groups) + header_words;
-  if (words.size() < before) return "a chunk of colours that ends within its headers";
-  // bits_at() reads a word more than it uses.
-  std::vector<uint32_t> headers(words.begin() + 1 + groups, words.begin() + ptrdiff_t(before));
-  headers.push_back(0);
-  uint64_t start = 0, bits = 0;
-  for (uint32_t i = 0; i < runs; ++i) {
-    if (i % kGroupRuns == 0) {
-      bits += bits & 1;
-      if (start > kChunkColours ||
-          words[1 + i / kGroupRuns] != uint64_t(start | bits / 2 << kGroupRankBits))
-        return "a group of runs of colours at the wrong place";
-    }
-    const uint32_t header = bits_at(headers.data(), uint64_t(i) * kRunHeaderBits, kRunHeaderBits);
-    const uint32_t kind = header >> 8, length = run_length(header);
-    start += length;
-    bits += bits_per_run(kind) + uint64_t(bits_per_colour(kind)) * length;
-    if (start > colours) return "a run of colours that is longer than its chunk";
-  }
-  if (start != colours) return "a chunk of colours with fewer colours than it has cubes";
-  if (words.size() != before + (bits + 31) / 32) return "a chunk of colours of the wrong size";
-  const uint32_t header_rest = runs * kRunHeaderBits % 32, rest = uint32_t(bits % 32);
-  if ((header_rest != 0 && words[before - 1] >> header_rest != 0) ||
-      (rest != 0 && words.back() >> rest != 0))
-    return "padding of a chunk of colours is not zero";
-  return nullptr;
-}
-
 void decode_chunk(const uint32_t* words, std::span<uint32_t> colours) {
   const uint32_t runs = words[0], groups = chunk_groups(runs);
   const uint64_t headers = 32 * uint64_t(1 + groups);

@@ -1,4 +1,4 @@
-// Encodes the colours of a chunk (io/dag/colours/chunk_view.h) and checks encoded ones.
+// Encodes the colours of a chunk (io/dag/colours/chunk_view.h).
 //
 // The decoded colours differ from the given ones by at most the error: the Euclidean distance of
 // the 8-bit sRGB colours, judged by one integer function when a run is searched and when it is
@@ -74,10 +74,6 @@ class ChunkEncoder {
   std::vector<uint8_t> run_kind_;
   std::vector<uint32_t> barrier_;  // [end]: the first colour after the last kNoColour before end
 };
-
-// What is wrong with the words of a chunk of `colours` colours; nullptr if they are valid, so that
-// chunk_colour() needs no checks. Whether the runs are the cheapest is not checked.
-const char* chunk_defect(std::span<const uint32_t> words, uint32_t colours);
 
 // All colours of a valid chunk, in order.
 void decode_chunk(const uint32_t* words, std::span<uint32_t> colours);

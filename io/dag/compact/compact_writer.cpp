@@ -123,6 +123,7 @@ class CompactWriter {
   CompactWriter(const DagFile& plain, const std::string& path, const WorkRoom& room)
       : plain_(plain), dag_(plain.view()), room_(room), file_(path), header_(plain.header()) {
     SVDAG_ASSERT(dag_.layout == Layout::kPlain);
+    clear_colours(&header_);
     header_.version = version_of(Layout::kCompact, LayerKind(header_.layer_kind));
     header_.layout = uint32_t(Layout::kCompact);
   }

@@ -53,11 +53,11 @@ std::vector<uint64_t> read_whole(const std::string& path, uint64_t max_bytes) {
 }
 
 void check_header(const Header& h, const std::string& path) {
-  if (h.version != 1 && h.version != 2)
+  if (h.version < 1 || h.version > kMaxVersion)
     fail_input(path, "has format version " + std::to_string(h.version) +
-                         ", this program reads versions 1 and 2");
+                         ", this program reads versions 1 to " + std::to_string(kMaxVersion));
   require(h.layout <= 1 && h.layer_kind < std::size(kLayerKindNames) &&
-              h.version == version_of(Layout(h.layout), LayerKind(h.layer_kind)),
+              h.version == version_of(Layout(h.layout), LayerKind(h.layer_kind), has_colours(h)),
           path, "impossible layout");
   require(h.header_bytes == sizeof(Header), path, "wrong header size");
   require(h.levels >= 3 && h.levels <= kMaxSections + 1, path,

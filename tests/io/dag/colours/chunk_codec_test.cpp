@@ -5,6 +5,7 @@
 #include <random>
 #include <string>
 
+#include "io/dag/colours/colours_check.h"
 #include "tests/io/dag/colours/colour_rows.h"
 
 namespace svdag {
@@ -26,7 +27,7 @@ std::vector<uint32_t> decoded(const std::vector<uint32_t>& words, size_t count) 
 // valid and come out again.
 void expect_good(const std::vector<uint32_t>& colours, uint32_t max_squared) {
   const std::vector<uint32_t> words = encoded(colours, max_squared);
-  EXPECT_EQ(chunk_defect(words, uint32_t(colours.size())), nullptr);
+  EXPECT_EQ(chunk_defect(words.data(), words.size(), uint32_t(colours.size())), nullptr);
   const std::vector<uint32_t> result = decoded(words, colours.size());
   std::vector<uint32_t> readable = words;
   readable.push_back(0xa5a5a5a5);  // the next chunk
@@ -155,7 +156,7 @@ TEST(ChunkCodec, DamagedChunksAreFoundOrHarmless) {
       if (!words.empty())
         words[random() % std::min<size_t>(words.size(), 40)] ^= 1U << random() % 32;
       const uint32_t count = uint32_t(colours.size()) + (random() % 8 == 0);
-      if (chunk_defect(words, count) != nullptr) {
+      if (chunk_defect(words.data(), words.size(), count) != nullptr) {
         ++found;
         continue;
       }
