@@ -404,15 +404,30 @@ Header copy_colours(const DagFile& dag, const DagFile& coloured, const std::stri
   return *copy.header();
 }
 
-Header write_without_colours(const DagFile& coloured, const std::string& path) {
-  DagCopy copy(coloured, path);
-  copy.finish();
-  if (!std::equal(copy.header()->content_hash, copy.header()->content_hash + 2,
+namespace {
+
+// Copies all except the colours.
+void strip(const DagFile& coloured, DagCopy* copy) {
+  copy->finish();
+  if (!std::equal(copy->header()->content_hash, copy->header()->content_hash + 2,
                   coloured.header().content_hash))
     fail_input(coloured.path(), "damaged file: its nodes do not match its content hash",
                offsetof(Header, content_hash));
+}
+
+}  // namespace
+
+Header write_without_colours(const DagFile& coloured, const std::string& path) {
+  DagCopy copy(coloured, path);
+  strip(coloured, &copy);
   copy.output()->commit();
   return *copy.header();
+}
+
+DagFile without_colours(const DagFile& coloured, const std::string& folder) {
+  DagCopy copy(coloured, folder + "/without_colours.svdag");
+  strip(coloured, &copy);
+  return DagFile::map_valid(File::open_read(copy.output()->open_name()), coloured.path());
 }
 
 }  // namespace svdag

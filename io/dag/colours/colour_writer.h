@@ -46,5 +46,7 @@ Header copy_colours(const DagFile& dag, const DagFile& coloured, const std::stri
 // Writes a file without its colours: the bytes from before they were added. Error (kBadInput) if
 // its content hash is another.
 Header write_without_colours(const DagFile& coloured, const std::string& path);
+// The same as a file in `folder` without a name.
+DagFile without_colours(const DagFile& coloured, const std::string& folder);
 
 }  // namespace svdag

@@ -39,6 +39,7 @@ class DagColours {
   DagColours(const DagFile& file, MemoryBudget* budget);
 
   const ColourView& view() const { return view_; }
+  const ColourCountTables& tables() const { return tables_; }
 
  private:
   ColourCountTables tables_;

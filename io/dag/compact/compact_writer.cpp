@@ -313,6 +313,12 @@ Header write_compact(const DagFile& plain, const std::string& path, const WorkRo
   return writer.header();
 }
 
+DagFile compact_form(const DagFile& plain, const std::string& shown_as, const WorkRoom& room) {
+  CompactWriter writer(plain, room.folder + "/compact.svdag", room);
+  writer.run();
+  return DagFile::map_valid(File::open_read(writer.file()->open_name()), shown_as);
+}
+
 bool is_compact_form(const DagFile& compact, const DagFile& plain, const WorkRoom& room) {
   CompactWriter writer(plain, room.folder + "/compact.svdag", room);
   writer.run();

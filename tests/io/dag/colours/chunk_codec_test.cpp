@@ -75,6 +75,12 @@ TEST(ChunkCodec, PlainAreasKeepTheirColourAndTakeAFewBytes) {
   EXPECT_EQ(decoded(words, colours.size()), colours);
 }
 
+TEST(ChunkCodec, WordsAreThoseOfTheFormatsPage) {
+  const uint32_t orange = rgb(200, 100, 50);
+  EXPECT_EQ(encoded({orange, orange, orange, kNoColour, kNoColour}, 81),
+            (std::vector<uint32_t>{2, 0, 0x00380802, 0x003264c8}));
+}
+
 // The definition, without windows that slide: the least cost over all runs of every kind.
 uint32_t least_cost(const ChunkEncoder& encoder, uint32_t count) {
   std::vector<uint32_t> cost(count + 1, UINT32_MAX);
