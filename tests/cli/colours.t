@@ -8,7 +8,7 @@ $ paint_dag plain.svdag painted.svdag 7 9
 $ svdag info painted.svdag | tail -3
 |   78,936 colours down to level 7, 7.3 KiB, 0.753 bits a colour, largest error 9
 |   content hash 0873013f8bb4b1b4a2e41c9d61ca4d43
-|   colour hash  fd7d180d139d611ec974e0915f87f4e7
+|   colour hash  572d6630feeef9842ae5f66525f83960
 $ svdag info plain.svdag | tail -1
 |   content hash 0873013f8bb4b1b4a2e41c9d61ca4d43
 $ svdag info painted.svdag --json | grep -A7 '"colours"'
@@ -18,7 +18,7 @@ $ svdag info painted.svdag --json | grep -A7 '"colours"'
 |     "count": 78936,
 |     "bytes": 7432,
 |     "bits_per_colour": 0.7532177966960576,
-|     "hash": "fd7d180d139d611ec974e0915f87f4e7"
+|     "hash": "572d6630feeef9842ae5f66525f83960"
 |   },
 $ svdag-verify check painted.svdag | tail -1
 | ok: sound, in canonical order and minimal
@@ -64,3 +64,6 @@ $ cmp -s grey.png colour.png || echo "other in colour"
 $ svdag-verify render plain.svdag -o c.png --mode colour
 ! svdag-verify: --mode colour: plain.svdag has neither colours nor layers (svdag build --layers)
 ? 2
+$ for f in painted plain; do svdag-trace $f.svdag --size 64x64 --samples 2 --rounds 1 --picture $f.ppm > /dev/null; done
+$ cmp -s painted.ppm plain.ppm || echo "rays in colour, too"
+| rays in colour, too

@@ -9,6 +9,7 @@ namespace svdag {
 namespace {
 
 constexpr uint32_t kJudged = 64;  // colours that are judged at once
+constexpr int kRefits = 3, kStepRounds = 3;
 
 int32_t channel_of(uint32_t colour, size_t c) {
   return int32_t(colour >> 8 * c & 0xffU);
@@ -322,16 +323,71 @@ void ChunkEncoder::find_runs() {
   }
 }
 
+// The ends that fit the colours best with the weights that `ends` give them: least squares.
+ChunkEncoder::Ends ChunkEncoder::refitted(uint32_t kind, uint32_t begin, uint32_t end,
+                                          const Ends& ends) const {
+  const LinePalette line(kind, ends.a, ends.b);
+  int64_t aa = 0, ab = 0, bb = 0;
+  std::array<int64_t, 3> a_sum{}, b_sum{};
+  for (uint32_t i = begin; i < end; ++i) {
+    const int64_t b = line.weight(channel_[0][i], channel_[1][i], channel_[2][i]);
+    const int64_t a = line.last - b;
+    aa += a * a, ab += a * b, bb += b * b;
+    for (size_t c = 0; c < 3; ++c) a_sum[c] += a * channel_[c][i], b_sum[c] += b * channel_[c][i];
+  }
+  const int64_t determinant = aa * bb - ab * ab;
+  if (determinant == 0) return ends;  // all have one weight
+  Ends result;
+  const auto code = [&](int64_t numerator) {
+    const double value = double(line.last * numerator) / double(determinant);
+    return uint8_t(std::min(std::max(value, 0.0), 255.0) * 63 / 255 + 0.5);
+  };
+  for (size_t c = 0; c < 3; ++c) {
+    result.a[c] = code(a_sum[c] * bb - b_sum[c] * ab);
+    result.b[c] = code(b_sum[c] * aa - a_sum[c] * ab);
+  }
+  return result;
+}
+
+// The run is fixed: of the ends within the error, these have a small sum of squares. A local
+// search: the candidates, least squares, then steps of one channel.
 ChunkEncoder::Ends ChunkEncoder::best_ends(uint32_t kind, uint32_t begin, uint32_t end) const {
   const uint32_t searched = kind == kConstantRun ? uint32_t(kLongRun) : kind;
   Ends best = ends_[searched][end];
   int64_t least = squared_error(kind, begin, end, best);
   SVDAG_ASSERT(has_ends_[searched][end] && least >= 0);
-  for_candidates(kind, begin, end, true, [&](const Ends& candidate) {
+  const auto consider = [&](const Ends& candidate) {
     const int64_t error = squared_error(kind, begin, end, candidate);
-    if (error >= 0 && error < least) least = error, best = candidate;
+    if (error < 0 || error >= least) return false;
+    least = error;
+    best = candidate;
+    return true;
+  };
+  for_candidates(kind, begin, end, true, [&](const Ends& candidate) {
+    consider(candidate);
     return false;
   });
+  for (int i = 0; is_line(kind) && i < kRefits && consider(refitted(kind, begin, end, best)); ++i) {
+  }
+  const int largest = is_line(kind) ? 63 : 255;
+  for (int round = 0, improved = 1; improved != 0 && round < kStepRounds; ++round) {
+    improved = 0;
+    for (auto* const channels : {&best.a, &best.b}) {
+      if (channels == &best.b && !is_line(kind)) continue;
+      for (uint8_t& channel : *channels) {
+        const uint8_t before = channel;
+        for (const int step : {-1, 1}) {
+          if (before + step < 0 || before + step > largest) continue;
+          channel = uint8_t(before + step);
+          const Ends candidate = best;
+          channel = before;
+          if (!consider(candidate)) continue;
+          improved = 1;
+          break;
+        }
+      }
+    }
+  }
   return best;
 }
 

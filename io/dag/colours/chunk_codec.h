@@ -60,6 +60,7 @@ class ChunkEncoder {
   Line line_through(uint32_t begin, uint32_t end) const;
   void find_runs();
   void emit(std::vector<uint32_t>* words) const;
+  Ends refitted(uint32_t kind, uint32_t begin, uint32_t end, const Ends& ends) const;
   Ends best_ends(uint32_t kind, uint32_t begin, uint32_t end) const;
 
   int32_t max_squared_;

@@ -1,5 +1,8 @@
 // The colour of one covered cube, or of all covered cubes of a node, before encoding: what the
-// colour pass gives to the writer (io/dag/colours/colour_writer.h).
+// colour pass gives to the writer of a file.
+//
+// Entries ascend, depth first, so in Morton order. Every covered cube of the colour level K is in
+// exactly one: alone, or as a descendant of an entry of a smaller level.
 #pragma once
 
 #include <cstdint>

@@ -69,16 +69,16 @@ uint64_t ColourCountTables::of(uint32_t level, uint32_t index) const {
   return level > 0 ? counts_.of(dag_, level, index) : count_of_children(0, index);
 }
 
-DagColours::DagColours(const DagFile& file, MemoryBudget* budget)
-    : tables_(file.view(), file.header().colour_level, true, budget) {
-  const Header& h = file.header();
+DagColours::DagColours(const void* data, const std::string& path, MemoryBudget* budget)
+    : tables_(dag_view(data), static_cast<const Header*>(data)->colour_level, true, budget) {
+  const Header& h = *static_cast<const Header*>(data);
   if (tables_.total() != h.colour_count)
-    fail_input(file.path(),
+    fail_input(path,
                "damaged file: it has " + std::to_string(h.colour_count) + " colours for " +
                    std::to_string(tables_.total()) + " cubes",
                offsetof(Header, colour_count));
-  const std::byte* const base = file.bytes().data();
-  view_.dag = file.view();
+  const auto* const base = static_cast<const std::byte*>(data);
+  view_.dag = dag_view(data);
   view_.counts = tables_.counts();
   view_.entries = reinterpret_cast<const ColourEntry*>(base + h.directory_offset);
   view_.entry_count = h.directory_bytes / sizeof(ColourEntry);

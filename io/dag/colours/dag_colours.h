@@ -13,7 +13,8 @@ namespace svdag {
 // The counts of all nodes of a DAG. Bytes: per node 1 to 8, in the plain layout per two words.
 class ColourCountTables {
  public:
-  // `level`: K, 1 .. L. Error (kMemory) if the budget has too little. `dag` must outlive this.
+  // `level`: K, 1 .. L. Error (kMemory) if the budget has too little. What `dag`
+  // shows must outlive this.
   ColourCountTables(const DagView& dag, uint32_t level, bool with_means, MemoryBudget* budget);
 
   const ColourCounts& counts() const { return counts_; }
@@ -26,7 +27,7 @@ class ColourCountTables {
   void fill(uint32_t level);
   uint64_t count_of_children(uint32_t level, uint32_t index) const;
 
-  const DagView& dag_;
+  DagView dag_;
   ColourCounts counts_;
   MemoryBudget::Reservation reserved_;
   std::vector<std::unique_ptr<std::byte[]>> memory_;
@@ -36,7 +37,10 @@ class DagColours {
  public:
   // `file` must have colours (DagFile::has_colours()) and outlive this. Error (kBadInput) if the
   // file does not have a colour for each cube; Error (kMemory).
-  DagColours(const DagFile& file, MemoryBudget* budget);
+  DagColours(const DagFile& file, MemoryBudget* budget)
+      : DagColours(file.bytes().data(), file.path(), budget) {}
+  // The same for the bytes of a valid file in memory; errors show `path`.
+  DagColours(const void* data, const std::string& path, MemoryBudget* budget);
 
   const ColourView& view() const { return view_; }
   const ColourCountTables& tables() const { return tables_; }

@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "io/dag/colours/colours_check.h"
 #include "io/dag/compact/compact_check.h"
 #include "io/dag/layers/root_views.h"
 #include "io/dag/pack/pack_format.h"
@@ -80,6 +81,14 @@ void check_header(const Header& h, const std::string& path) {
   require(h.layer_count <= kMaxLayers && h.has_union <= 1 && h.layers_offset <= h.file_bytes &&
               h.layers_bytes <= h.file_bytes - h.layers_offset,
           path, "impossible layers");
+  const auto is_inside = [&](uint64_t offset, uint64_t bytes, uint64_t unit) {
+    return offset % kSectionAlignment == 0 && offset >= sizeof(Header) && offset <= h.file_bytes &&
+           bytes <= h.file_bytes - offset && bytes % unit == 0;
+  };
+  require(!has_colours(h) ||
+              (h.colour_level <= h.levels && is_inside(h.chunks_offset, h.chunks_bytes, 4) &&
+               is_inside(h.directory_offset, h.directory_bytes, sizeof(ColourEntry))),
+          path, "impossible colours");
 }
 
 void check_bricks(const DagView& view, const std::string& path) {
@@ -124,6 +133,7 @@ PlainFile read_plain_file(const std::string& path, uint64_t max_bytes) {
     if (const auto defect = CompactCheck(file.words.data()).run())
       require(false, path, defect->sentence);
   }
+  if (const auto defect = colours_defect(file.words.data())) require(false, path, defect->sentence);
   file.view = dag_view(file.words.data());
   const auto* const table =
       reinterpret_cast<const std::byte*>(file.words.data()) + file.header().layers_offset;
