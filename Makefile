@@ -27,6 +27,7 @@
 #   bench-trace      rays through the DAG beside rays through the triangles by Embree
 #   bench-cuda       rays on an NVIDIA GPU, the same as the processor's bit by bit; its table
 #   bench-layers     bytes and times of files with layers; its tables
+#   bench-colour     bytes, errors and speed of colours
 #   bench-solid      bytes and times of solids; its table
 #   bench-python     the Python package beside trimesh and Open3D; the tables of docs/python.md
 #   bench-size       bytes of each layout, and rays per second through them; its tables
@@ -54,7 +55,7 @@ PROGRAMS = build/$(PRESET)
 PYTHON = /usr/bin/python3 -B
 
 .PHONY: all deps build demo test test-sanitized test-farm test-python test-view stress fuzz-long bench bench-before bench-giants bench-sort \
-  bench-out-of-core bench-cache bench-accuracy bench-plan bench-vdb bench-trace bench-cuda bench-size bench-layers bench-solid bench-python bundle wheel deb cuda \
+  bench-out-of-core bench-cache bench-accuracy bench-plan bench-vdb bench-trace bench-cuda bench-size bench-layers bench-colour bench-solid bench-python bundle wheel deb cuda \
   pictures clean
 all: build
 
@@ -159,6 +160,10 @@ bench-vdb: build
 
 bench-size: build
 	@$(PYTHON) tests/bench/size.py --programs $(PROGRAMS)
+
+bench-colour: build
+	@cmake --build --preset $(PRESET) --target colours_bench
+	@$(PYTHON) tests/bench/colours.py --programs $(PROGRAMS)
 
 bench-layers: build
 	@$(PYTHON) tests/bench/layers.py --programs $(PROGRAMS)

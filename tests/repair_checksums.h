@@ -29,11 +29,11 @@ inline void repair_checksums(std::string* bytes) {
       const uint64_t sum = checksum64(part(begin, size));
       std::memcpy(bytes->data() + h.checksum_offset + 8 * i, &sum, 8);
     }
-    const bool compact = h.layout == uint32_t(Layout::kCompact);  // its content hash is another's
-    uint64_t* const of_table = compact ? h.table_hash : h.content_hash;
-    if (!compact) of_table[0] = of_table[1] = h.header_checksum = 0;
+    const bool own_hash = has_table_hash(h);  // the content hash is another file's
+    uint64_t* const of_table = own_hash ? h.table_hash : h.content_hash;
+    if (!own_hash) of_table[0] = of_table[1] = h.header_checksum = 0;
     Hasher128 hasher;
-    if (!compact) hasher.update(std::as_bytes(std::span(&h, 1)));
+    if (!own_hash) hasher.update(std::as_bytes(std::span(&h, 1)));
     hasher.update(part(h.checksum_offset, h.checksum_bytes));
     const Hash128 hash = hasher.digest();
     std::memcpy(of_table, hash.data(), sizeof hash);

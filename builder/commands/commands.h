@@ -31,6 +31,9 @@ struct OutputConfig {
   Progress::Mode mode() const { return quiet ? Progress::Mode::kOff : progress; }
 };
 
+// Reports on stderr that an output has no colours although the file at `path` has.
+void report_dropped_colours(const std::string& path);
+
 // svdag build SCENE -o OUT: one bake.
 struct BakeCommand {
   BuildConfig build;

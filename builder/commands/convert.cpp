@@ -1,8 +1,10 @@
 // `svdag convert`: another layout, or a part of a file; `svdag pack` and `svdag unpack`.
 #include <cstdio>
+#include <optional>
 
 #include "builder/commands/commands.h"
 #include "builder/run/bake_output.h"
+#include "io/dag/colours/colour_writer.h"
 #include "io/dag/graph/select.h"
 #include "io/dag/open_dag.h"
 #include "io/dag/pack/pack.h"
@@ -16,6 +18,11 @@
 
 namespace svdag {
 
+void report_dropped_colours(const std::string& path) {
+  std::fprintf(stderr, "svdag: %s: its colours are left out of the output\n",
+               printable(path).c_str());
+}
+
 int run(const ConvertCommand& config) {
   const std::string& path = config.output_path;
   CommandFiles({config.file}).write(path);
@@ -25,6 +32,9 @@ int run(const ConvertCommand& config) {
   const WorkRoom room{&budget, config.scratch.empty() ? folder_of(path) : config.scratch};
   const DagFile file = open_dag(config.file, {}, &room);
   const uint64_t before = File::open_read(config.file).size();
+  if (file.has_colours() && !config.selection.without_colours &&
+      !keeps_colours(file, config.selection))
+    report_dropped_colours(config.file);
   const Header header = write_selection(file, config.selection, path, room);
   if (!config.output.quiet)
     std::printf("%s: %s, %s, %.1f %% of %s\n  content hash %s\n", printable(path).c_str(),
@@ -40,7 +50,13 @@ int run(const PackCommand& config) {
   if (!path.ends_with(".pack")) fail_usage(path + ": the output must end in .pack");
   AtomicFile::check(path, config.output.no_clobber);
   MemoryBudget budget(memory_or_default(config.memory));
-  const DagFile plain = select(open_dag(config.file), config.selection, {&budget, folder_of(path)});
+  const WorkRoom room{&budget, folder_of(path)};
+  DagFile file = open_dag(config.file);
+  if (file.has_colours()) report_dropped_colours(config.file);
+  const DagFile chosen = select(std::move(file), config.selection, room);
+  std::optional<DagFile> bare;
+  if (chosen.has_colours()) bare.emplace(without_colours(chosen, room.folder));
+  const DagFile& plain = bare ? *bare : chosen;
   ParallelExecutor executor(threads_or_all(config.threads));
   const uint64_t bytes = pack(plain, path, config.level, &budget, &executor);
   if (!config.output.quiet)

@@ -39,6 +39,7 @@ int run(const EditCommand& config) {
   check_output(config.edit, config.output.no_clobber);
   ParallelExecutor executor(threads_or_all(config.threads));
   const ImportReport r = edit(config.edit, &executor);
+  for (const std::string& path : r.dropped_colours) report_dropped_colours(path);
   if (config.output.json)
     std::fputs(report_json(r, config.edit.output).c_str(), stdout);
   else if (!config.output.quiet)

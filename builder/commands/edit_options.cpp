@@ -56,6 +56,8 @@ void add_convert(CLI::App* program, Command* command) {
       ->type_name("OUT");
   add_layout(app, &config->selection.layout);
   add_selection(app, &config->selection);
+  app->add_flag("--no-colours", config->selection.without_colours,
+                "Leave out the colours: the bytes of the file before they were added");
   add_no_clobber(app, &config->output.no_clobber);
   add_memory_budget(app, &config->memory);
   takes_folder(
@@ -67,8 +69,9 @@ void add_convert(CLI::App* program, Command* command) {
                      "svdag convert city.svdag -o roofs.svdag --layer roof"});
   app->preparse_callback([=](size_t) { *config = {}; });
   app->callback([=] {
-    if (app->count("--layout") == 0 && config->selection.is_everything())
-      fail_usage("convert: give --layout, --layer, --level or --bounds");
+    if (app->count("--layout") == 0 && config->selection.is_everything() &&
+        !config->selection.without_colours)
+      fail_usage("convert: give --layout, --layer, --level, --bounds or --no-colours");
     *command = *config;
   });
 }

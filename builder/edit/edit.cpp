@@ -91,7 +91,10 @@ ImportReport edit(const EditConfig& config, Executor* executor) {
                    selection.layout == Layout::kCompact ? std::optional(room) : std::nullopt);
   const uint64_t voxels = reduce(result.nodes, room, executor, &writer, &result.layers).voxels;
   writer.finish(voxels, result.largest_snap, std::move(result.layers));
-  return report_of(writer.header());
+  ImportReport report = report_of(writer.header());
+  if (first.has_colours()) report.dropped_colours.push_back(config.first);
+  if (second && second->has_colours()) report.dropped_colours.push_back(*config.second);
+  return report;
 }
 
 }  // namespace svdag

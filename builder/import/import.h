@@ -39,6 +39,7 @@ struct ImportReport {
   uint64_t file_bytes = 0;
   std::string content_hash;  // 32 hex digits
   int spilled = 0;           // number of sorts that did not fit in memory
+  std::vector<std::string> dropped_colours{};  // inputs of an edit with colours
 };
 
 // The report of a finished file.

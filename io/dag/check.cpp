@@ -1,6 +1,7 @@
 #include "io/dag/check.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -29,12 +30,25 @@ void require(bool condition, const File& file, const char* sentence, uint64_t of
 void check_identity(const File& file, const Header& h) {
   if (std::memcmp(h.magic, kMagic, sizeof kMagic) != 0)
     fail_input(file.path(), "is not a svdag file (its first bytes are not \\x89SVDAG)");
-  if (h.version != 1 && h.version != 2)
+  if (h.version < 1 || h.version > kMaxVersion)
     fail_input(file.path(), "has format version " + std::to_string(h.version) +
-                                ", this program reads versions 1 and 2");
+                                ", this program reads versions 1 to " +
+                                std::to_string(kMaxVersion));
   const auto bytes = std::as_bytes(std::span(&h, 1));
   require(checksum64(bytes.first(offsetof(Header, header_checksum))) == h.header_checksum, file,
           "the header does not match its checksum", offsetof(Header, header_checksum));
+}
+
+void check_colour_fields(const File& file, const Header& h) {
+  if (has_colours(h))
+    return require(h.colour_level <= h.levels && h.colour_error <= kMaxColourError &&
+                       h.chunks_bytes % 4 == 0 && h.directory_bytes % sizeof(ColourEntry) == 0 &&
+                       (h.layer_kind == 0 || h.has_union == 1),
+                   file, "impossible colours", offsetof(Header, chunks_offset));
+  const uint64_t fields[] = {h.chunks_offset, h.chunks_bytes, h.directory_offset, h.directory_bytes,
+                             h.colour_count,  h.colour_error, h.colour_hash[0],   h.colour_hash[1]};
+  for (const uint64_t field : fields)
+    require(field == 0, file, "colours without a level", offsetof(Header, chunks_offset));
 }
 
 void check_fields(const File& file, const Header& h) {
@@ -52,14 +66,15 @@ void check_fields(const File& file, const Header& h) {
             "impossible grid origin", offsetof(Header, origin));
   }
   require(h.layout <= 1 && h.padding == 0 && h.layer_kind < std::size(kLayerKindNames) &&
-              h.version == version_of(Layout(h.layout), LayerKind(h.layer_kind)),
+              h.version == version_of(Layout(h.layout), LayerKind(h.layer_kind), has_colours(h)),
           file, "impossible layout", offsetof(Header, layout));
   const bool layered = h.layer_kind != 0;
   require(h.layer_count <= (layered ? kMaxLayers : 0) && h.has_union <= (layered ? 1 : 0) &&
               h.padding2 == 0 && (layered || (h.layers_offset == 0 && h.layers_bytes == 0)),
           file, "impossible layers", offsetof(Header, layers_offset));
-  require(is_compact(h) || (h.table_hash[0] == 0 && h.table_hash[1] == 0), file,
+  require(has_table_hash(h) || (h.table_hash[0] == 0 && h.table_hash[1] == 0), file,
           "unknown header field", offsetof(Header, table_hash));
+  check_colour_fields(file, h);
   for (const unsigned char byte : h.reserved)
     require(byte == 0, file, "unknown header field", offsetof(Header, reserved));
 }
@@ -92,6 +107,10 @@ void check_layout(const File& file, const Header& h) {
   }
   if (h.layer_kind != 0)
     expect_section(h.layers_offset, h.layers_bytes, offsetof(Header, layers_offset));
+  if (has_colours(h)) {
+    expect_section(h.chunks_offset, h.chunks_bytes, offsetof(Header, chunks_offset));
+    expect_section(h.directory_offset, h.directory_bytes, offsetof(Header, directory_offset));
+  }
   expect_section(h.metadata_offset, h.metadata_bytes, offsetof(Header, metadata_offset));
   expect_section(h.checksum_offset, h.checksum_bytes, offsetof(Header, checksum_offset));
   const uint64_t payload = h.checksum_offset - sizeof(Header);
@@ -107,9 +126,9 @@ std::vector<uint64_t> read_table(const File& file, const Header& h) {
   Header blank = h;
   blank.content_hash[0] = blank.content_hash[1] = blank.header_checksum = 0;
   Hasher128 hasher;
-  if (!is_compact(h)) hasher.update(std::as_bytes(std::span(&blank, 1)));
+  if (!has_table_hash(h)) hasher.update(std::as_bytes(std::span(&blank, 1)));
   hasher.update(bytes);
-  const uint64_t* const expected = is_compact(h) ? h.table_hash : h.content_hash;
+  const uint64_t* const expected = has_table_hash(h) ? h.table_hash : h.content_hash;
   require(hasher.digest() == Hash128{expected[0], expected[1]}, file,
           "the checksum table does not match its hash in the header", h.checksum_offset);
   return table;
@@ -129,8 +148,9 @@ class StructureScan {
       const size_t n = size_t(std::min<uint64_t>(bytes.size(), region_end() - offset));
       if (in_section(offset)) {
         scan(offset, bytes.first(n));
-      } else if (!holds(h_.layers_offset, h_.layers_bytes, offset) &&
-                 !holds(h_.metadata_offset, h_.metadata_bytes, offset)) {
+      } else if (std::none_of(parts_.begin(), parts_.end(), [&](const Part& part) {
+                   return offset >= part.offset && offset - part.offset < part.bytes;
+                 })) {
         for (size_t i = 0; i < n; ++i)
           require(bytes[i] == std::byte(0), file_, "padding is not zero", offset + i);
       }
@@ -149,16 +169,15 @@ class StructureScan {
   bool in_section(uint64_t offset) const {
     return !done_ && offset >= section().offset && offset < section().offset + section().bytes;
   }
-  static bool holds(uint64_t begin, uint64_t bytes, uint64_t offset) {
-    return offset >= begin && offset - begin < bytes;
-  }
   // The end of the region (padding, section or rest) that contains the position.
   uint64_t region_end() const {
     if (done_) {
-      const uint64_t ends[] = {h_.layers_offset, h_.layers_offset + h_.layers_bytes,
-                               h_.metadata_offset, h_.metadata_offset + h_.metadata_bytes};
-      const auto end = std::upper_bound(std::begin(ends), std::end(ends), position_);
-      return end != std::end(ends) ? *end : h_.checksum_offset;
+      uint64_t end = h_.checksum_offset;
+      for (const Part& part : parts_) {
+        for (const uint64_t border : {part.offset, part.offset + part.bytes})
+          if (border > position_) end = std::min(end, border);
+      }
+      return end;
     }
     return position_ < section().offset ? section().offset : section().offset + section().bytes;
   }
@@ -218,8 +237,17 @@ class StructureScan {
     return word < below.bytes / 4 && (below_[word / 64] >> (word % 64) & 1U) != 0;
   }
 
+  // What follows the sections, apart from padding; all zeros if the file does not have it.
+  struct Part {
+    uint64_t offset, bytes;
+  };
+
   const File& file_;
   const Header& h_;
+  const std::array<Part, 4> parts_{{{h_.layers_offset, h_.layers_bytes},
+                                    {h_.chunks_offset, h_.chunks_bytes},
+                                    {h_.directory_offset, h_.directory_bytes},
+                                    {h_.metadata_offset, h_.metadata_bytes}}};
   uint32_t level_;
   bool done_ = false;
   uint64_t position_ = sizeof(Header);

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "io/dag/check.h"
+#include "io/dag/colours/colours_check.h"
 #include "io/dag/compact/compact_check.h"
 #include "io/dag/grid_fields.h"
 
@@ -30,6 +31,8 @@ DagFile DagFile::open(const std::string& path) {
     if (const auto defect = CompactCheck(mapped.data()).run())
       fail_input(path, std::string("damaged file: ") + defect->sentence, defect->offset);
   }
+  if (const auto defect = colours_defect(mapped.data()))
+    fail_input(path, std::string("damaged file: ") + defect->sentence, defect->offset);
   LayerTable layers = layers_of(path, mapped.data());
   return {std::move(mapped), path, std::move(layers)};
 }

@@ -28,6 +28,8 @@ class DagFile {
   const Header& header() const { return *static_cast<const Header*>(file_.data()); }
   const DagView& view() const { return view_; }
   Layout layout() const { return view_.layout; }
+  // io/dag/colours/dag_colours.h looks them up.
+  bool has_colours() const { return svdag::has_colours(header()); }
   // The whole file.
   std::span<const std::byte> bytes() const {
     return {static_cast<const std::byte*>(file_.data()), size_t(header().file_bytes)};

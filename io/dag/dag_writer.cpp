@@ -7,9 +7,7 @@
 
 #include "io/dag/compact/compact_writer.h"
 #include "io/dag/grid_fields.h"
-#include "io/dag/metadata.h"
 #include "streaming/error.h"
-#include "streaming/file/checksum.h"
 
 namespace svdag {
 namespace {
@@ -35,7 +33,7 @@ DagWriter::DagWriter(const std::string& path, const Grid& grid, Rule rule,
                      std::optional<WorkRoom> compact, uint64_t max_words)
     : path_(path),
       compact_(std::move(compact)),
-      file_(path),
+      output_(path),
       max_words_(max_words),
       level_(grid.levels - 1) {
   static_assert(std::endian::native == std::endian::little, "the format is little-endian");
@@ -49,40 +47,22 @@ DagWriter::DagWriter(const std::string& path, const Grid& grid, Rule rule,
     header_.corner[a] = corner[a];
     if (grid.kind == Grid::Kind::kOrigin) header_.origin[a] = grid.origin[a];
   }
-  file_.write_at(0, std::as_bytes(std::span(&header_, 1)));
-}
-
-void DagWriter::append(const void* bytes, size_t size) {
-  blocks_.append({static_cast<const std::byte*>(bytes), size}, &filled_);
-  store(&filled_);
-}
-
-void DagWriter::store(FilledBlocks* filled) {
-  filled->write_all([this](FilledBlock& block) {
-    file_.write_at(sizeof(Header) + block.number * kChecksumBlock, block.bytes());
-    return checksum64(block.bytes());
-  });
-}
-
-void DagWriter::align() {
-  static constexpr std::byte kZeros[kSectionAlignment] = {};
-  append(kZeros, (kSectionAlignment - position() % kSectionAlignment) % kSectionAlignment);
 }
 
 void DagWriter::close_level() {
   if (level_ == int(header_.section_count)) return;  // no level was begun yet
   Section& section = header_.sections[level_];
-  section.bytes = position() - section.offset;
+  section.bytes = output_.position() - section.offset;
 }
 
 void DagWriter::begin_level(int level) {
   SVDAG_ASSERT(level == level_ - 1 && level >= 0);
   close_level();
-  align();
+  output_.align();
   level_ = level;
   words_ = 0;
   last_ = {};
-  header_.sections[level].offset = position();
+  header_.sections[level].offset = output_.position();
 }
 
 void DagWriter::begin_key(const NodeKey& key) {
@@ -110,7 +90,7 @@ uint32_t DagWriter::add_brick(Brick brick) {
   SVDAG_ASSERT(level_ + 2 == int(header_.levels));
   begin_key(key_of(brick));
   const uint32_t index = take_words(1, 1);
-  append(&brick, sizeof brick);
+  output_.append(std::as_bytes(std::span(&brick, 1)));
   return index;
 }
 
@@ -128,7 +108,7 @@ uint32_t DagWriter::append_node(const NodeKey& children) {
   uint32_t words[kMaxNodeWords];
   const uint32_t count = encode_node(children, words);
   const uint32_t index = take_words(count, 1);
-  append(words, sizeof(uint32_t) * count);
+  output_.append(std::as_bytes(std::span(words, count)));
   return index;
 }
 
@@ -186,7 +166,7 @@ uint32_t DagWriter::append(LevelPiece* piece) {
   last_ = piece->last;
   const size_t item = level_ + 2 == int(header_.levels) ? sizeof(Brick) : sizeof(uint32_t);
   const uint32_t index = take_words(piece->bytes.size() / item, piece->indices.size());
-  blocks_.append(piece->bytes, &piece->filled);
+  output_.blocks()->append(piece->bytes, &piece->filled);
   return index;
 }
 
@@ -217,11 +197,11 @@ void DagWriter::write_layers(LayerTable layers) {
   header_.layer_count = uint32_t(layers.layers.size());
   header_.has_union = layers.has_union;
   header_.voxels = layers.default_voxels(header_.voxels);
-  align();
+  output_.align();
   const std::vector<std::byte> bytes = encode_layers(layers);
-  header_.layers_offset = position();
+  header_.layers_offset = output_.position();
   header_.layers_bytes = bytes.size();
-  append(bytes.data(), bytes.size());
+  output_.append(bytes);
 }
 
 void DagWriter::complete(uint64_t voxels, double largest_snap, LayerTable layers) {
@@ -231,35 +211,13 @@ void DagWriter::complete(uint64_t voxels, double largest_snap, LayerTable layers
   header_.voxels = voxels;
   header_.largest_snap = largest_snap;
   write_layers(std::move(layers));
-  align();
-  const std::string json = metadata_of(header_);
-  header_.metadata_offset = position();
-  header_.metadata_bytes = json.size();
-  append(json.data(), json.size());
-  align();
-  header_.checksum_offset = position();
-  blocks_.finish(&filled_);
-  store(&filled_);
-  const std::vector<uint64_t> checksums(blocks_.checksums().begin(), blocks_.checksums().end());
-  header_.checksum_bytes = checksums.size() * sizeof(uint64_t);
-  header_.file_bytes = header_.checksum_offset + header_.checksum_bytes;
-  const auto table = std::as_bytes(std::span(checksums));
-  file_.write_at(header_.checksum_offset, table);
-
-  Hasher128 hasher;  // content_hash and header_checksum are still zero
-  hasher.update(std::as_bytes(std::span(&header_, 1)));
-  hasher.update(table);
-  const Hash128 hash = hasher.digest();
-  std::memcpy(header_.content_hash, hash.data(), sizeof hash);
-  const auto bytes = std::as_bytes(std::span(&header_, 1));
-  header_.header_checksum = checksum64(bytes.first(offsetof(Header, header_checksum)));
-  file_.write_at(0, bytes);
+  output_.finish(&header_);
 }
 
 DagFile DagWriter::finish_unnamed(uint64_t voxels, double largest_snap, LayerTable layers,
                                   const std::string& shown_as) {
   complete(voxels, largest_snap, std::move(layers));
-  return DagFile::map_valid(File::open_read(file_.open_name()), shown_as);
+  return DagFile::map_valid(File::open_read(output_.open_name()), shown_as);
 }
 
 void DagWriter::finish(uint64_t voxels, double largest_snap, LayerTable layers,
@@ -267,7 +225,7 @@ void DagWriter::finish(uint64_t voxels, double largest_snap, LayerTable layers,
   if (!compact_) {
     complete(voxels, largest_snap, std::move(layers));
     if (check) check(header_);
-    return file_.commit();
+    return output_.commit();
   }
   SVDAG_ASSERT(!check);  // of plain files only
   const DagFile plain = finish_unnamed(voxels, largest_snap, std::move(layers), path_);

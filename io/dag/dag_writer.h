@@ -16,12 +16,11 @@
 
 #include "io/brick.h"
 #include "io/dag/dag_file.h"
+#include "io/dag/dag_file_output.h"
 #include "io/dag/layers/layer_table.h"
 #include "io/dag/level_piece.h"
 #include "io/dag/node_key.h"
 #include "io/grid.h"
-#include "streaming/file/atomic_file.h"
-#include "streaming/file/block_filler.h"
 #include "streaming/spill/work_array.h"
 
 namespace svdag {
@@ -51,7 +50,7 @@ class DagWriter {
   void encode(std::span<const unsigned char> masks, std::span<const uint32_t> children,
               LevelPiece* piece) const;
   uint32_t append(LevelPiece* piece);
-  void store(LevelPiece* piece) { store(&piece->filled); }
+  void store(LevelPiece* piece) { output_.store(&piece->filled); }
   // The roots, that is, the nodes of level 0, may come in any order; add_node() numbers them.
   //
   // Writes metadata, checksums and header, and renames the file to its name. Without layers there
@@ -67,10 +66,6 @@ class DagWriter {
   const Header& header() const { return header_; }
 
  private:
-  void append(const void* bytes, size_t size);
-  void store(FilledBlocks* filled);
-  void align();
-  uint64_t position() const { return sizeof(Header) + blocks_.position(); }
   void close_level();
 
   void begin_key(const NodeKey& key);
@@ -82,15 +77,13 @@ class DagWriter {
 
   std::string path_;
   std::optional<WorkRoom> compact_;
-  AtomicFile file_;
+  DagFileOutput output_;
   Header header_{};
   uint64_t max_words_;
   int level_;                   // the level being written
   uint32_t words_ = 0;          // words (bricks) in it
   NodeKey last_{};              // its last key
   std::vector<NodeKey> roots_;  // level 0
-  BlockFiller blocks_{kChecksumBlock};
-  FilledBlocks filled_;  // by append(bytes, size)
 };
 
 }  // namespace svdag

@@ -1,9 +1,11 @@
 // The structures of the `.svdag` file format (docs/format.md).
 //
-//   header (1024 bytes) | level sections | layer table | metadata (JSON) | checksum table | end
+//   header (1024 bytes) | level sections | layer table | colours | metadata (JSON) |
+//   checksum table | end
 //
 // All parts are 64-byte aligned. In the plain layout the sections are ordered deepest first, in the
-// compact layout root first. Version 1 is the plain layout without layers, version 2 all else.
+// compact layout root first. Files with colours have version 3; of the others, the plain layout
+// without layers has version 1, all else version 2.
 //
 // Little-endian. No dependencies: host and CUDA code include this file through dag_view.h.
 #pragma once
@@ -37,7 +39,10 @@ constexpr const char* layer_kind_name(LayerKind kind) {
   return kLayerKindNames[size_t(kind)];
 }
 
-constexpr uint32_t version_of(Layout layout, LayerKind layers) {
+constexpr uint32_t kMaxVersion = 3;
+
+constexpr uint32_t version_of(Layout layout, LayerKind layers, bool has_colours = false) {
+  if (has_colours) return 3;
   return layout == Layout::kPlain && layers == LayerKind::kNone ? 1 : 2;
 }
 
@@ -88,19 +93,26 @@ struct Header {
   uint64_t file_bytes;
   Section sections[kMaxSections];  // [k] is level k; unused sections are zero
   uint64_t content_hash[2];  // XXH3-128 over the header (hash and checksum as 0) and the table,
-                             // of the plain layout
+                             // of the plain layout without colours
   double transform[12];      // of the scene into the world, 3x4, row by row; zeros: the identity
   double origin[3];          // kOrigin: world position of plane 0; else 0
   uint32_t layout;           // Layout
   uint32_t padding;          // zero
-  uint64_t table_hash[2];    // compact: XXH3-128 of the checksum table; plain: zero
+  uint64_t table_hash[2];    // compact or with colours: XXH3-128 of the checksum table; else zero
   // The layers; zeros in a file without.
   uint64_t layers_offset, layers_bytes;
   uint32_t layer_count;
-  uint32_t layer_kind;          // LayerKind
-  uint32_t has_union;           // 1: the first root is the union of all layers
-  uint32_t padding2;            // zero
-  unsigned char reserved[192];  // zero
+  uint32_t layer_kind;  // LayerKind
+  uint32_t has_union;   // 1: the first root is the union of all layers
+  uint32_t padding2;    // zero
+  // The colours; zeros in a file without.
+  uint64_t chunks_offset, chunks_bytes;
+  uint64_t directory_offset, directory_bytes;  // ColourEntry each
+  uint64_t colour_count;
+  uint32_t colour_level;        // K, 1 .. L: of the finest cubes with a colour
+  uint32_t colour_error;        // the largest, in units of 1/256 step of 8 bits of sRGB
+  uint64_t colour_hash[2];      // XXH3-128 of the three numbers before, the chunks, the directory
+  unsigned char reserved[128];  // zero
   uint64_t header_checksum;     // XXH3-64 of the 1016 bytes before
 };
 
@@ -119,8 +131,37 @@ static_assert(offsetof(Header, content_hash) == 632);
 static_assert(offsetof(Header, transform) == 648);
 static_assert(offsetof(Header, layout) == 768);
 static_assert(offsetof(Header, layers_offset) == 792);
+static_assert(offsetof(Header, chunks_offset) == 824);
+static_assert(offsetof(Header, colour_hash) == 872);
 static_assert(offsetof(Header, header_checksum) == 1016);
 static_assert(sizeof(Header) == 1024);
+
+constexpr bool has_colours(const Header& h) {
+  return h.colour_level != 0;
+}
+inline void clear_colours(Header* h) {
+  h->chunks_offset = h->chunks_bytes = h->directory_offset = h->directory_bytes = 0;
+  h->colour_count = h->colour_hash[0] = h->colour_hash[1] = 0;
+  h->colour_level = h->colour_error = 0;
+}
+// Whether table_hash covers the checksum table; else content_hash does.
+constexpr bool has_table_hash(const Header& h) {
+  return Layout(h.layout) == Layout::kCompact || has_colours(h);
+}
+
+constexpr uint32_t kColourErrorUnit = 256;  // of Header::colour_error: a step
+constexpr uint32_t kMaxColourError = 255 * kColourErrorUnit;
+
+// The colours from number `first` up to the next entry's: a chunk (io/dag/colours/chunk_view.h), or
+// one colour for all.
+struct ColourEntry {
+  uint64_t first;
+  uint64_t value;  // kChunkEntry | number of its first word among the chunks; else the colour
+};
+
+constexpr uint64_t kChunkEntry = uint64_t(1) << 63;
+
+static_assert(sizeof(ColourEntry) == 16);
 
 // An entry of the layer table; the names follow the last one.
 struct StoredLayer {

@@ -35,6 +35,11 @@ std::string metadata_of(const Header& h) {
                                        std::string(layer_kind_name(LayerKind(h.layer_kind))) +
                                        "\",\"count\":" + number(h.layer_count) +
                                        ",\"union\":" + (h.has_union ? "true" : "false") + "}";
+  const std::string colours =
+      has_colours(h) ? ",\"colours\":{\"level\":" + number(h.colour_level) +
+                           ",\"error\":" + real(double(h.colour_error) / kColourErrorUnit) +
+                           ",\"count\":" + number(h.colour_count) + "}"
+                     : "";
   return "{\"format\":\"svdag\",\"version\":" + number(h.version) + layout +
          ",\"levels\":" + number(h.levels) + ",\"resolution\":" + number(1U << h.levels) +
          ",\"rule\":\"" + rule_name(Rule(h.rule)) + "\",\"fraction_bits\":" + number(h.fraction) +
@@ -47,7 +52,7 @@ std::string metadata_of(const Header& h) {
                     number(h.selection_min[2]), number(h.selection_max[0]),
                     number(h.selection_max[1]), number(h.selection_max[2])}) +
          origin + transform + "},\"voxels\":" + number(h.voxels) + ",\"nodes\":" + nodes +
-         "],\"largest_snap\":" + real(h.largest_snap) + layers + "}\n";
+         "],\"largest_snap\":" + real(h.largest_snap) + layers + colours + "}\n";
 }
 
 }  // namespace svdag

@@ -3,13 +3,13 @@
 ## format_other_version
 # A file of an unknown version is reported as such, not as damaged.
 $ later() { head -c 8 "$TESTS/files/$1"; printf "$2"; tail -c +10 "$TESTS/files/$1"; }
-$ later version1.svdag '\003' > later_version1.svdag
+$ later version1.svdag '\004' > later_version1.svdag
 $ later version1_half1.run '\002' > later_version1_half1.run
 $ svdag info later_version1.svdag
-! svdag: later_version1.svdag: has format version 3, this program reads versions 1 and 2
+! svdag: later_version1.svdag: has format version 4, this program reads versions 1 to 3
 ? 3
 $ svdag-verify check later_version1.svdag
-! svdag-verify: later_version1.svdag: has format version 3, this program reads versions 1 and 2
+! svdag-verify: later_version1.svdag: has format version 4, this program reads versions 1 to 3
 ? 3
 $ svdag merge later_version1_half1.run "$TESTS/files/version1_half2.run" -o merged.svdag
 ! svdag: later_version1_half1.run: has run format version 2, this program reads version 1

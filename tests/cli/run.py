@@ -13,7 +13,7 @@ A .t file holds the cases of one topic:
     ! exact line of stderr       also !* and !...
     ? 2                          the exit code; 0 without this line
 
-A case is one shell script. It runs in an empty folder with the built programs on PATH; $TESTS is this folder. Each
+A case is one shell script. It runs in an empty folder with the built programs, and those of tests, on PATH; $TESTS is this folder. Each
 command runs under `set -e`, except where a nonzero exit code is expected. A command that fails unexpectedly ends its case.
 
 --update records the current results in the files. It never changes a stream that has a pattern.
@@ -98,7 +98,7 @@ def parse(path):
 
 def run_script(script, programs):
     environment = {k: v for k, v in os.environ.items() if k != "COLUMNS"}  # without it, help is wrapped at 80 columns
-    environment |= dict(PATH=f"{programs}:/usr/bin:/bin", LC_ALL="C", TESTS=str(HERE))
+    environment |= dict(PATH=f"{programs}:/usr/bin:/bin:{programs}/tests", LC_ALL="C", TESTS=str(HERE))
     with tempfile.TemporaryDirectory(prefix="svdag-cli-") as folder, tempfile.NamedTemporaryFile("w") as file:
         file.write(script)
         file.flush()

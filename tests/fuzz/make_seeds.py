@@ -277,6 +277,10 @@ def main(programs, corpus):
             keep("packed", f"{kind}.pack", (folder / "a.pack").read_bytes())
             for reader in ("svdag", "plain_file"):
                 keep(reader, f"compact_{kind}.svdag", (folder / "compact.svdag").read_bytes())
+            for layout, level, error in (("a", 3, 9), ("compact", 2, 0)):
+                subprocess.run([programs / "tests/paint_dag", f"{layout}.svdag", "painted.svdag", str(level), str(error)], cwd=folder, check=True)
+                for reader in ("svdag", "plain_file"):
+                    keep(reader, f"painted_{layout}_{kind}.svdag", (folder / "painted.svdag").read_bytes())
             svdag("build", scene, "-o", "a.run", *grid, "--part", "1/1")
             keep("run", f"{kind}.run", (folder / "a.run").read_bytes())
             if grid[1] != "8":

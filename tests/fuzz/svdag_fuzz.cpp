@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "io/dag/check.h"
+#include "io/dag/colours/chunk_codec.h"
+#include "io/dag/colours/dag_colours.h"
 #include "io/dag/compact/compact_check.h"
 #include "io/dag/dag_view.h"
 #include "io/dag/layers/layer_table.h"
@@ -36,6 +38,29 @@ uint64_t walk(const DagView& dag) {
   return bricks;
 }
 
+// The first and last colour of every entry; the decoder sees the others.
+void look_up_colours(const std::string& path) {
+  try {
+    const DagFile file = DagFile::open(path);
+    MemoryBudget budget(uint64_t(1) << 28);
+    const DagColours colours(file, &budget);
+    const ColourView& view = colours.view();
+    std::vector<uint32_t> chunk;
+    for (uint64_t i = 0; i < view.entry_count; ++i) {
+      const uint64_t first = view.entries[i].first;
+      const uint64_t end =
+          i + 1 < view.entry_count ? view.entries[i + 1].first : file.header().colour_count;
+      const uint32_t a = colour_at(view, first), b = colour_at(view, end - 1);
+      if ((view.entries[i].value & kChunkEntry) == 0) continue;
+      chunk.resize(end - first);
+      decode_chunk(view.chunks + (view.entries[i].value & ~kChunkEntry), chunk);
+      if (chunk.front() != a || chunk.back() != b) std::abort();
+    }
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kBadInput && error.code() != ExitCode::kMemory) std::abort();
+  }
+}
+
 void try_file(const std::string& bytes) {
   const MemoryFile memory(bytes);
   try {
@@ -51,6 +76,7 @@ void try_file(const std::string& bytes) {
                 std::as_bytes(std::span(bytes)).subspan(header.layers_offset, header.layers_bytes));
   const bool compact = header.layout == uint32_t(Layout::kCompact);
   if (!compact || !CompactCheck(aligned.data()).run()) walk(dag_view(aligned.data()));
+  if (has_colours(header)) look_up_colours(memory.file().path());
 }
 
 }  // namespace

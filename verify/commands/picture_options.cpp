@@ -18,7 +18,7 @@ void add_render(CLI::App* app, VerifyCommand* parsed) {
   suggests(command->add_option(
                "--mode", config->mode,
                "primary, shadow, soft, ao, normal, depth, level, steps or colour (default: colour, "
-               "or primary without layers)"),
+               "or primary where the file has none)"),
            {"primary", "shadow", "soft", "ao", "normal", "depth", "level", "steps", "colour"})
       ->type_name("MODE");
   add_selection(command, &config->selection, false);

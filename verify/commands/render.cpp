@@ -139,7 +139,7 @@ int run(const RenderCommandConfig& config) {
     fail_usage("--fly: give 1 to 9999 frames");
   if (!config.mode.empty()) parse_mode(config.mode);
   const DagFile file = open_dag(config.file, config.selection);
-  const bool layered = !file.layers().empty() && !config.frames;
+  const bool coloured = (file.has_colours() || !file.layers().empty()) && !config.frames;
   if (config.frames && file.layers().empty())
     fail_usage("--frames: " + file.path() + " has no layers (svdag build --layers)");
   const int frames = config.frames ? int(file.layers().layers.size()) : config.fly.value_or(1);
@@ -151,13 +151,16 @@ int run(const RenderCommandConfig& config) {
     AtomicFile::check(name);
   }
 
-  const std::string mode_name = !config.mode.empty() ? config.mode : layered ? "colour" : "primary";
+  const std::string mode_name = !config.mode.empty() ? config.mode
+                                : coloured           ? "colour"
+                                                     : "primary";
   const ShadeMode mode = parse_mode(mode_name);
-  if (mode == ShadeMode::kColour && !layered)
-    fail_usage("--mode colour: " + file.path() + " has no layers (svdag build --layers)");
+  if (mode == ShadeMode::kColour && !coloured)
+    fail_usage("--mode colour: " + file.path() +
+               " has neither colours nor layers (svdag build --layers)");
   picture.beams = mode != ShadeMode::kSteps;  // beams would hide steps
-  const LayerColours colours(file);
-  if (layered) colours.show_in(&picture);
+  const ShownColours colours(file);
+  if (coloured) colours.show_in(&picture);
   if (file.view().empty()) fail_usage(file.path() + ": has no voxel to trace");
   VoxelBox shown = config.clip ? clipped_voxels(file.grid(), *config.clip) : file.grid().whole();
   VoxelBounds whole = framing_bounds(file.view());

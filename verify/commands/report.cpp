@@ -46,7 +46,7 @@ std::vector<ReportPicture> make_pictures(const ReportConfig& config, const DagFi
   picture.width = config.size.width;
   picture.height = config.size.height;
   picture.supersample = 3;  // without moire on fine walls
-  const LayerColours colours(file);
+  const ShownColours colours(file);
   colours.show_in(&picture);
   const VoxelBounds box = framing_bounds(dag);
   ParallelExecutor executor(threads_or_all(config.common.threads));

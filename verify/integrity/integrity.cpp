@@ -6,6 +6,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "io/dag/colours/colour_writer.h"
 #include "io/dag/compact/compact_writer.h"
 #include "io/dag/graph/select.h"
 #include "io/dag/node_starts.h"
@@ -281,6 +282,13 @@ IntegrityReport inspect(const Header& header, const DagView& dag, std::string_vi
 }
 
 IntegrityReport inspect_file(const DagFile& file, const WorkRoom& room) {
+  if (file.has_colours()) {
+    IntegrityReport report = inspect_file(without_colours(file, room.folder), room);
+    for (auto defects :
+         {metadata_defects(file.header(), file.metadata()), colour_defects(file, room.budget)})
+      report.defects.insert(report.defects.end(), defects.begin(), defects.end());
+    return report;
+  }
   std::optional<DagFile> converted;
   if (file.layout() != Layout::kPlain) converted.emplace(derive(file, {}, room));
   const DagFile& plain = converted ? *converted : file;

@@ -10,7 +10,9 @@
 //     without unused nodes is minimal;
 //   * the voxels summed over the DAG equal the header's, and none is outside the selection;
 //   * the union of a surface rule is exactly the voxels of the layers (union_check.h);
-//   * the metadata matches the header, with every key once, in the format's exact words.
+//   * the metadata matches the header, with every key once, in the format's exact words;
+//   * without its colours the file has its content hash, and the colours have theirs; each entry of
+//     them is a cube of the DAG (integrity_colours.cpp).
 #pragma once
 
 #include <cstdint>
@@ -38,6 +40,10 @@ IntegrityReport inspect(const Header& header, const DagView& dag, std::string_vi
 // The same for a file in any layout. A compact file is proved by its plain form, and by having the
 // bytes that this gives in the compact layout. Error (kBadInput) if it has no plain form.
 IntegrityReport inspect_file(const DagFile& file, const WorkRoom& room);
+
+// Whether the entries of the colours are those of the definition (docs/format.md, "Colours"), as
+// far as they follow from the voxels, and their hash. `file` must have colours.
+std::vector<std::string> colour_defects(const DagFile& file, MemoryBudget* budget);
 
 // The differences between the JSON text of the metadata and the header.
 std::vector<std::string> metadata_defects(const Header& header, std::string_view metadata);

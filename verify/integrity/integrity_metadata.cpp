@@ -39,6 +39,11 @@ json expected_metadata(const Header& h) {
     expected["layers"] = {{"kind", layer_kind_name(LayerKind(h.layer_kind))},
                           {"count", h.layer_count},
                           {"union", h.has_union != 0}};
+  if (Layout(h.layout) != Layout::kPlain) expected["layout"] = layout_name(Layout(h.layout));
+  if (has_colours(h))
+    expected["colours"] = {{"level", h.colour_level},
+                           {"error", double(h.colour_error) / kColourErrorUnit},
+                           {"count", h.colour_count}};
   if (has_transform(h)) expected["grid"]["transform"] = h.transform;
   return expected;
 }

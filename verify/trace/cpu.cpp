@@ -155,8 +155,18 @@ class PixelTile {
     }
   }
 
+  Vec3 stored_albedo(const Hit& hit) const {
+    const uint32_t shift = dag_.levels - hit.level;
+    const uint32_t colour = svdag_colour(*config_.colours, hit.level, hit.voxel[0] >> shift,
+                                         hit.voxel[1] >> shift, hit.voxel[2] >> shift);
+    if (colour == kNoColour) return kClay;
+    return albedo_of({uint8_t(colour), uint8_t(colour >> 8), uint8_t(colour >> 16)});
+  }
+
   Vec3 albedo(const Hit& hit) const {
-    if (!hit.found || config_.albedos.empty() || !shading_.shows_layers()) return kClay;
+    if (!hit.found || !shading_.shows_layers()) return kClay;
+    if (config_.colours != nullptr) return stored_albedo(hit);
+    if (config_.albedos.empty()) return kClay;
     const uint32_t layer =
         layer_of_cube(dag_, config_.layers, hit.level, hit.voxel[0], hit.voxel[1], hit.voxel[2]);
     return layer == kNoLayer ? kClay : config_.albedos[layer];
@@ -178,13 +188,15 @@ class PixelTile {
 
 }  // namespace
 
-LayerColours::LayerColours(const DagFile& file) {
-  if (file.layers().empty()) return;
+ShownColours::ShownColours(const DagFile& file) : budget_(memory_or_default(0)) {
+  if (file.has_colours()) colours_.emplace(file, &budget_);
+  if (file.has_colours() || file.layers().empty()) return;
   index_.emplace(file.layer_index());
   for (const Layer& layer : file.layers().layers) albedos_.push_back(albedo_of(layer.colour));
 }
 
-void LayerColours::show_in(RenderConfig* picture) const {
+void ShownColours::show_in(RenderConfig* picture) const {
+  if (colours_) picture->colours = &colours_->view();
   if (!index_) return;
   picture->layers = index_->view();
   picture->albedos = albedos_;

@@ -14,7 +14,7 @@ namespace svdag {
 // normal    directions as colours
 // depth     near white, far black
 // level     the level at which rays end that stop at cubes the size of a pixel
-// colour    as primary, each layer in its colour; shadow and soft show these, too
+// colour    as primary, in the file's colours, else each layer in its colour; shadow and soft show these, too
 // steps     number of traversal steps, from black over red and yellow to white
 enum class ShadeMode { kPrimary, kShadow, kSoft, kAo, kNormal, kDepth, kLevel, kSteps, kColour };
 

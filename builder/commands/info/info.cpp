@@ -56,10 +56,22 @@ Json occupied_json(const DagFile& file) {
       {"bounds", {world.min.x, world.min.y, world.min.z, world.max.x, world.max.y, world.max.z}}};
 }
 
+double bits_per_colour(const Header& h) {
+  return h.colour_count == 0
+             ? 0
+             : 8 * double(h.chunks_bytes + h.directory_bytes) / double(h.colour_count);
+}
+
 Json dag_json(const DagFile& file, const DagStats& stats) {
   Json json = Json::parse(metadata_of(file.header()));
   json["file_bytes"] = file.header().file_bytes;
   json["content_hash"] = to_hex(file.header().content_hash);
+  if (file.has_colours()) {
+    const Header& h = file.header();
+    json["colours"]["bytes"] = h.chunks_bytes + h.directory_bytes;
+    json["colours"]["bits_per_colour"] = bits_per_colour(h);
+    json["colours"]["hash"] = to_hex(h.colour_hash);
+  }
   json["occupied"] = occupied_json(file);
   json["svo_nodes"] = stats.svo_nodes();
   json["dag_nodes"] = stats.dag_nodes();
@@ -162,7 +174,13 @@ void info_dag(const InfoCommand& config) {
     std::printf("  %s layers, one for each %s%s\n", format_count(layers.layers.size()).c_str(),
                 layer_kind_name(layers.kind),
                 layers.has_union ? "" : ", without their union: the voxels are those of the first");
+  if (file.has_colours())
+    std::printf("  %s colours down to level %u, %s, %.3g bits a colour, largest error %s\n",
+                format_count(h.colour_count).c_str(), h.colour_level,
+                format_bytes(h.chunks_bytes + h.directory_bytes).c_str(), bits_per_colour(h),
+                format_double(double(h.colour_error) / kColourErrorUnit).c_str());
   std::printf("  content hash %s\n", to_hex(h.content_hash).c_str());
+  if (file.has_colours()) std::printf("  colour hash  %s\n", to_hex(h.colour_hash).c_str());
   if (config.layers) print_layers(file, config.memory);
   if (config.levels) print_levels(file, stats, config.memory);
 }

@@ -123,6 +123,7 @@ class CompactWriter {
   CompactWriter(const DagFile& plain, const std::string& path, const WorkRoom& room)
       : plain_(plain), dag_(plain.view()), room_(room), file_(path), header_(plain.header()) {
     SVDAG_ASSERT(dag_.layout == Layout::kPlain);
+    clear_colours(&header_);
     header_.version = version_of(Layout::kCompact, LayerKind(header_.layer_kind));
     header_.layout = uint32_t(Layout::kCompact);
   }
@@ -310,6 +311,12 @@ Header write_compact(const DagFile& plain, const std::string& path, const WorkRo
   writer.run();
   writer.file()->commit();
   return writer.header();
+}
+
+DagFile compact_form(const DagFile& plain, const std::string& shown_as, const WorkRoom& room) {
+  CompactWriter writer(plain, room.folder + "/compact.svdag", room);
+  writer.run();
+  return DagFile::map_valid(File::open_read(writer.file()->open_name()), shown_as);
 }
 
 bool is_compact_form(const DagFile& compact, const DagFile& plain, const WorkRoom& room) {

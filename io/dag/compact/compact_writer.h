@@ -22,6 +22,9 @@ namespace svdag {
 // Writes a valid plain file to `path` in the compact layout, and returns the new header.
 Header write_compact(const DagFile& plain, const std::string& path, const WorkRoom& room);
 
+// The same as a file without a name; errors show `shown_as`.
+DagFile compact_form(const DagFile& plain, const std::string& shown_as, const WorkRoom& room);
+
 // Whether `compact` has the bytes that write_compact() would write.
 bool is_compact_form(const DagFile& compact, const DagFile& plain, const WorkRoom& room);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/dag/colours/colour_writer.h"
 #include "io/dag/compact/compact_writer.h"
 #include "io/dag/graph/combined_graph.h"
 #include "io/dag/graph/dag_graph.h"
@@ -28,6 +29,13 @@ auto write_selected(const DagFile& file, const Selection& selection, const std::
                  offsetof(Header, content_hash));
   };
   return finish(&writer, voxels, &graph, check);
+}
+
+Header write_copy(const DagFile& file, const std::string& path) {
+  AtomicFile output(path);
+  output.append(file.bytes());
+  output.commit();
+  return file.header();
 }
 
 }  // namespace
@@ -91,18 +99,27 @@ DagFile select(DagFile file, const Selection& selection, const WorkRoom& room) {
   return derive(file, selection, room);
 }
 
+bool keeps_colours(const DagFile& file, const Selection& selection) {
+  return file.has_colours() && selection.is_everything() && !selection.without_colours;
+}
+
 Header write_selection(const DagFile& file, const Selection& selection, const std::string& path,
                        const WorkRoom& room) {
+  if (file.has_colours() && selection.is_everything()) {
+    const bool keeps = keeps_colours(file, selection);
+    if (selection.layout != file.layout()) {
+      const DagFile dag = selection.layout == Layout::kPlain
+                              ? derive(file, selection, room)
+                              : compact_form(file, file.path(), room);
+      return keeps ? copy_colours(dag, file, path) : write_copy(dag, path);
+    }
+    return keeps ? write_copy(file, path) : write_without_colours(file, path);
+  }
   const bool is_same = selection.is_everything() && file.layout() == Layout::kPlain;
   if (selection.layout == Layout::kCompact)
     return is_same ? write_compact(file, path, room)
                    : write_compact(derive(file, selection, room), path, room);
-  if (is_same) {
-    AtomicFile output(path);
-    output.append(file.bytes());
-    output.commit();
-    return file.header();
-  }
+  if (is_same) return write_copy(file, path);
   return write_selected(file, selection, path, room,
                         [&](DagWriter* writer, uint64_t voxels, GraphOfSets* graph, auto check) {
                           writer->finish(voxels, graph->largest_snap, std::move(graph->layers),

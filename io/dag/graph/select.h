@@ -48,6 +48,9 @@ DagFile derive(const DagFile& file, const Selection& selection, const WorkRoom& 
 // The same, but `file` itself if it is plain and all of it is selected.
 DagFile select(DagFile file, const Selection& selection, const WorkRoom& room);
 
+// Whether write_selection() keeps the colours of `file`: only of a whole file.
+bool keeps_colours(const DagFile& file, const Selection& selection);
+
 // Writes the selection to `path`, in its layout. Returns the header.
 Header write_selection(const DagFile& file, const Selection& selection, const std::string& path,
                        const WorkRoom& room);

@@ -17,6 +17,7 @@ struct Selection {
   std::optional<Box> bounds{};     // --bounds: the voxels of the level that meet it, in world units
   Layout layout = Layout::kPlain;  // --layout, of the output of a command
   bool without_layers = false;     // only the set that a file shows first
+  bool without_colours = false;    // --no-colours
 
   bool is_everything() const { return layers.empty() && !level && !bounds && !without_layers; }
 };

@@ -101,7 +101,8 @@ class Unpacker {
     require(checksum64(bytes.first(offsetof(PackedHeader, checksum))) == header_.checksum,
             "the header does not match its checksum", offsetof(PackedHeader, checksum));
     check_header(file_, header_.plain);
-    require(header_.padding == 0 && header_.plain.layout == uint32_t(Layout::kPlain),
+    require(header_.padding == 0 && header_.plain.layout == uint32_t(Layout::kPlain) &&
+                !has_colours(header_.plain),
             "unknown header field", offsetof(PackedHeader, padding));
   }
 

@@ -2,13 +2,15 @@
 """A reader of `.svdag` files, written from docs/format.md alone.
 
 It checks everything that the page guarantees (sizes, checksums, content hash, masks, pointers, order,
-minimality, counts, layers, metadata) and lists the set voxels. It keeps all of them in memory: for small grids.
+minimality, counts, layers, colours, metadata) and lists the set voxels and colours. It keeps all of them in memory: for small grids.
 
     read_svdag.py FILE             one line: resolution, voxels, SHA-256 of the sorted voxel list
     read_svdag.py FILE --voxels    the list itself, "x y z" per line, ascending
 """
+import functools
 import hashlib
 import json
+import re
 import struct
 import sys
 import typing
@@ -53,6 +55,7 @@ class Svdag:
         self.read_layers()
         self.check_graph()
         self.check_metadata()
+        self.read_colours()
         self.check_layer_voxels()
 
     def read_header(self):
@@ -68,7 +71,11 @@ class Svdag:
         self.compact, zero = struct.unpack_from("<2I", self.data, 768)
         self.layers_at, self.layers_size, self.layer_count, self.layer_kind, self.has_union, zero_2 = \
             struct.unpack_from("<2Q4I", self.data, 792)
-        version = 2 if self.compact or self.layer_kind else 1
+        (self.chunks_at, self.chunks_size, self.directory_at, self.directory_size, self.colour_count, self.K,
+         self.colour_error) = struct.unpack_from("<5Q2I", self.data, 824)
+        demand(self.K or not any(self.data[824:888]), "colours of a file without")
+        demand(self.K <= self.L and self.colour_error <= 255 * 256, "level or error of the colours")
+        version = 3 if self.K else 2 if self.compact or self.layer_kind else 1
         demand(self.compact in (0, 1) and (self.version, size, zero) == (version, 1024, 0), "version, size or layout")
         demand(self.layer_kind in (0, 1, 2, 3, 4) and self.has_union in (0, 1) and zero_2 == 0, "layers")
         demand(self.layer_kind or not any(self.data[792:824]), "layers of a file without")
@@ -77,7 +84,7 @@ class Svdag:
         demand(count == self.L - 1, "number of sections")
         self.entries = [struct.unpack_from("<3Q", self.data, 176 + 24 * k) for k in range(19)]
         demand(not any(map(any, self.entries[self.L - 1:])), "unused entries")
-        demand(not any(self.data[648:744]) and not any(self.data[824:1016]), "reserved bytes")
+        demand(not any(self.data[648:744]) and not any(self.data[888:1016]), "reserved bytes")
         self.origin = list(struct.unpack_from("<3d", self.data, 744))
         demand(self.bounded or self.selection == [0, 0, 0] + [2**self.L] * 3, "selection")
         if self.kind != 0:
@@ -94,6 +101,9 @@ class Svdag:
         at, parts = 1024, [self.entries[k][:2] for k in order]
         if self.layer_kind:
             parts.append((self.layers_at, self.layers_size))
+        self.geometry_end = sum(parts[-1])
+        if self.K:
+            parts += [(self.chunks_at, self.chunks_size), (self.directory_at, self.directory_size)]
         for offset, size in parts + [(self.metadata_at, self.metadata_size), (self.table_at, self.table_size)]:
             demand(offset == aligned(at), "a section does not follow the previous one")
             demand(offset + size <= len(self.data), "a section ends beyond the end of the file")
@@ -107,10 +117,11 @@ class Svdag:
         sums = [xxhash.xxh3_64_intdigest(body[i:i + BLOCK]) for i in range(0, len(body), BLOCK)]
         demand(table == struct.pack(f"<{len(sums)}Q", *sums), "block checksums")
         header = self.data[:632] + bytes(16) + self.data[648:1016] + bytes(8)
-        digest = xxhash.xxh3_128_intdigest(table if self.compact else header + table)
-        hashed = struct.unpack_from("<2Q", self.data, 776 if self.compact else 632)
+        of_table = self.compact or self.K
+        digest = xxhash.xxh3_128_intdigest(table if of_table else header + table)
+        hashed = struct.unpack_from("<2Q", self.data, 776 if of_table else 632)
         demand(hashed == (digest & (2**64 - 1), digest >> 64), "content hash")
-        demand(self.compact or not any(self.data[776:792]), "reserved bytes")
+        demand(of_table or not any(self.data[776:792]), "reserved bytes")
 
     def section(self, level):
         offset, size, _ = self.entries[level]
@@ -233,7 +244,6 @@ class Svdag:
                 words += [sum(1 << c for c in range(8) if key[c])] + [n - 1 for n in key if n]
             sections.append(struct.pack(f"<{len(words)}I", *words))
         header, body = bytearray(self.data[:1024]), bytearray()
-        struct.pack_into("<I", header, 8, 2 if self.layer_kind else 1)
         header[768:792] = bytes(24)
 
         def place(part):
@@ -243,22 +253,43 @@ class Svdag:
             return offset
         for k, part in zip(range(self.L - 2, -1, -1), sections):
             struct.pack_into("<3Q", header, 176 + 24 * k, place(part), len(part), self.entries[k][2])
-        text = self.data[self.metadata_at:self.metadata_at + self.metadata_size]
-        text = text.replace(b'"version":2,"layout":"compact"', b'"version":2' if self.layer_kind else b'"version":1')
         if self.layer_kind:
             struct.pack_into("<Q", header, 792, place(self.data[self.layers_at:self.layers_at + self.layers_size]))
+        return self.finished(header, body, compact=False)
+
+    def without_colours(self):
+        header = bytearray(self.data[:776]) + bytes(16) + self.data[792:824] + bytes(64) + self.data[888:1024]
+        return self.finished(header, bytearray(self.data[1024:self.geometry_end]), self.compact)
+
+    def finished(self, header, body, compact):
+        """A file without colours: its metadata, checksums and hashes after `body`."""
+        def place(part):
+            body.extend(bytes(aligned(len(body)) - len(body)))
+            offset = 1024 + len(body)
+            body.extend(part)
+            return offset
+        version = 2 if compact or self.layer_kind else 1
+        struct.pack_into("<I", header, 8, version)
+        text = self.data[self.metadata_at:self.metadata_at + self.metadata_size]
+        text = re.sub(rb',"colours":[{][^}]*[}]', b"", text)
+        text = re.sub(rb'"version":[0-9](,"layout":"compact")?', b'"version":%d%s' % (version, b',"layout":"compact"' if compact else b""), text)
         at = place(text)
         place(b"")
         table = b"".join(struct.pack("<Q", xxhash.xxh3_64_intdigest(bytes(body[i:i + BLOCK]))) for i in range(0, len(body), BLOCK))
         struct.pack_into("<5Q", header, 136, at, len(text), 1024 + len(body), len(table), 1024 + len(body) + len(table))
-        header[632:648] = bytes(16)
+        if not compact:
+            header[632:648] = bytes(16)
         header[1016:] = bytes(8)
-        digest = xxhash.xxh3_128_intdigest(bytes(header) + table)
-        struct.pack_into("<2Q", header, 632, digest & (2**64 - 1), digest >> 64)
+        digest = xxhash.xxh3_128_intdigest(table if compact else bytes(header) + table)
+        struct.pack_into("<2Q", header, 776 if compact else 632, digest & (2**64 - 1), digest >> 64)
         struct.pack_into("<Q", header, 1016, xxhash.xxh3_64_intdigest(bytes(header[:1016])))
         return bytes(header + body + table)
 
     def check_graph(self):
+        if self.K:
+            bare = Svdag(self.without_colours())  # checks the rest
+            demand(bare.data[632:648] == self.data[632:648], "content hash of the file without colours")
+            return
         if self.compact:
             plain = Svdag(self.plain_form())  # checks order and minimality
             demand(plain.data[632:648] == self.data[632:648], "content hash of the plain file")
@@ -286,7 +317,81 @@ class Svdag:
             "voxels": self.voxel_count, "nodes": [e[2] for e in self.entries[:self.L - 1]],
             "largest_snap": self.largest_snap,
             **({"layers": {"kind": ["", "object", "material", "file", "frame"][self.layer_kind], "count": self.layer_count,
-                           "union": bool(self.has_union)}} if self.layer_kind else {})}, "metadata")
+                           "union": bool(self.has_union)}} if self.layer_kind else {}),
+            **({"colours": {"level": self.K, "error": self.colour_error / 256, "count": self.colour_count}} if self.K else {})}, "metadata")
+
+    def read_colours(self):
+        """self.colours: {(level, x, y, z): "rrggbb"} of all cubes that have one."""
+        self.colours = {}
+        if not self.K:
+            return
+        chunks = self.data[self.chunks_at:self.chunks_at + self.chunks_size]
+        directory = self.data[self.directory_at:self.directory_at + self.directory_size]
+        digest = xxhash.xxh3_128_intdigest(self.data[856:872] + chunks + directory)
+        demand(struct.unpack_from("<2Q", self.data, 872) == (digest & (2**64 - 1), digest >> 64), "colour hash")
+        demand(not self.layer_kind or self.has_union, "colours of a file without union")
+        entries = list(struct.iter_unpack("<2Q", directory))
+        ends = [first for first, _ in entries[1:]] + [self.colour_count]
+        places = [value - 2**63 for _, value in entries if value >> 63] + [len(chunks) // 4]
+        demand(places[0] == 0 if entries and len(places) > 1 else not chunks, "the first chunk")
+        self.spans, stream, chunk = [], [], 0
+        for (first, value), end in zip(entries, ends):
+            demand(first == len(stream) < end, "numbers of colours")
+            self.spans.append((end - first, value >> 63))
+            if value >> 63:
+                demand(end - first <= 16384 and places[chunk] < places[chunk + 1], "a chunk")
+                stream += decode_chunk(chunks[4 * places[chunk]:4 * places[chunk + 1]], end - first)
+                chunk += 1
+            else:
+                demand(value < 2**24 or value == 0xffffffff, "a colour")
+                stream += [value] * (end - first)
+        demand(len(stream) == self.colour_count, "number of colours")
+        self.place_colours(stream)
+
+    def covered_children(self, level, node):
+        """(c, child) of a node, brick, or octant of a brick; the latter two are given by their bits."""
+        if level < self.L - 2:
+            for c, child in enumerate(self.levels[level][node]):
+                if child is not None:
+                    yield c, int(self.bricks[child]) if level == self.L - 3 else child
+        else:
+            for c in range(8):
+                bits = node >> 8 * c & 255 if level == self.L - 2 else node >> c & 1
+                if bits:
+                    yield c, bits
+
+    def place_colours(self, stream):
+        colours, spans = iter(stream), list(reversed(self.spans))
+
+        @functools.lru_cache(maxsize=None)
+        def count(level, node):
+            if level == self.K:
+                return 1
+            return (self.K - level + 1) % 2 + sum(count(level + 1, child) for _, child in self.covered_children(level, node))
+
+        def show(level, x, y, z):
+            colour = next(colours, None)
+            demand(colour is not None, "fewer colours than cubes")
+            if colour != 0xffffffff:
+                self.colours[level, x, y, z] = colour.to_bytes(3, "little").hex()
+
+        def descend(level, node, x, y, z, in_entry):
+            if not in_entry:
+                in_entry = spans[-1:] and spans[-1][0] == count(level, node)
+                if in_entry:
+                    spans.pop()
+                else:
+                    demand(count(level, node) > 16384, "an entry that is not of a cube")
+                    demand((self.K - level) % 2 or spans and spans.pop() == (1, 0), "an entry that is not a cube's mean")
+            if (self.K - level) % 2 == 0:
+                show(level, x, y, z)
+            if level < self.K:
+                for c, child in self.covered_children(level, node):
+                    descend(level + 1, child, 2 * x + (c >> 2), 2 * y + (c >> 1 & 1), 2 * z + (c & 1), in_entry)
+
+        if self.levels[0]:
+            descend(0, next(iter(self.levels[0])), 0, 0, 0, False)
+        demand(next(colours, None) is None and not spans, "more colours than cubes")
 
     def check_layer_voxels(self):
         """Each layer's number of voxels and selection; the union is that of the layers."""
@@ -319,6 +424,49 @@ class Svdag:
         low, high = self.selection[:3], self.selection[3:]
         demand(all(l <= a < h for v in found for l, a, h in zip(low, v, high)), "a voxel outside the selection")
         return numpy.array(sorted(found), "<u4").reshape(-1, 3)
+
+
+def decode_chunk(data, count):
+    """The colours of a chunk, 0xffffffff for none."""
+    demand(len(data) >= 4, "a chunk without runs")
+    runs, = struct.unpack_from("<I", data)
+    groups = -(-runs // 16)
+    header_at = 4 + 4 * groups
+    payload_at = header_at + 4 * (-(-11 * runs // 32))
+    demand(0 < runs <= 16384 and payload_at <= len(data), "headers of a chunk")
+    headers = int.from_bytes(data[header_at:payload_at], "little")
+    payload = int.from_bytes(data[payload_at:], "little")
+    demand(headers >> 11 * runs == 0, "padding of a chunk")
+    colours, at = [], 0
+
+    def read(bits):
+        nonlocal at
+        at += bits
+        return payload >> at - bits & (1 << bits) - 1
+    for run in range(runs):
+        if run % 16 == 0:
+            at += at % 2
+            group, = struct.unpack_from("<I", data, 4 + 4 * (run // 16))
+            demand((group & 16383, group >> 14) == (len(colours), at // 2), "group of a chunk")
+        header = headers >> 11 * run & 2047
+        length, kind = 1 + (header & 255), header >> 8
+        if kind == 7:
+            colours += [0xffffffff] * length
+        elif kind == 6:
+            colours += [read(24) for _ in range(length)]
+        elif kind < 2:
+            colours += [read(24)] * (length * (256 if kind == 1 else 1))
+        else:
+            last = (1 << kind - 1) - 1
+            a, b = ([(v << 2 | v >> 4) for v in (read(6), read(6), read(6))] for _ in range(2))
+            for _ in range(length):
+                w = read(kind - 1)
+                mixed = [(p * (last - w) + q * w + last // 2) // last for p, q in zip(a, b)]
+                colours.append(mixed[0] | mixed[1] << 8 | mixed[2] << 16)
+        demand(len(colours) <= count, "a run beyond its chunk")
+    demand(len(colours) == count, "number of colours of a chunk")
+    demand(len(data) == payload_at + 4 * (-(-at // 32)) and payload >> at == 0, "size of a chunk")
+    return colours
 
 
 def main():

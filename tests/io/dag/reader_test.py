@@ -26,9 +26,10 @@ def repaired(data):
     data = bytearray(data)
     table_at, = struct.unpack_from("<Q", data, 152)
     struct.pack_into("<Q", data, table_at, xxhash.xxh3_64_intdigest(bytes(data[1024:table_at])))
+    own_hash = data[8] == 3  # with colours
     header = bytes(data[:632]) + bytes(16) + bytes(data[648:1016]) + bytes(8)
-    digest = xxhash.xxh3_128_intdigest(header + data[table_at:])
-    struct.pack_into("<2Q", data, 632, digest & (2**64 - 1), digest >> 64)
+    digest = xxhash.xxh3_128_intdigest(bytes(data[table_at:]) if own_hash else header + data[table_at:])
+    struct.pack_into("<2Q", data, 776 if own_hash else 632, digest & (2**64 - 1), digest >> 64)
     struct.pack_into("<Q", data, 1016, xxhash.xxh3_64_intdigest(bytes(data[:1016])))
     return bytes(data)
 
@@ -143,6 +144,48 @@ class Reader(unittest.TestCase):
                     dag.write_bytes(damaged)
                     with self.assertRaises(AssertionError):
                         run("tests/dump_voxels", dag)
+
+    def shown(self, dag, levels):
+        """What the C++ look-up shows of all cubes, by level; cubes without a level of their own as their parents."""
+        colours = [line.split() for line in run("tests/paint_dag", dag).splitlines()]
+        return {(int(level), int(x), int(y), int(z)): colour for level, x, y, z, colour in colours if int(level) in levels}
+
+    def test_both_readers_see_the_same_colours(self):
+        for kind, count, grid in [("rectangle", 2, ["-r", "8"]), ("city", 1200, ["-r", "64"]), ("hairball", 5000, ["-r", "64"])]:
+            for layout in ("plain", "compact"):
+                dag = self.bake(kind, count, *grid, "--layout", layout)
+                bare = dag.read_bytes()
+                finest = read_svdag.Svdag(bare).L
+                for level, error in [(finest, 9), (finest - 1, 0), (finest - 2, 12.75), (1, 0)]:
+                    with self.subTest(kind=kind, layout=layout, level=level):
+                        painted = dag.with_name("painted.svdag")
+                        run("tests/paint_dag", dag, painted, level, error)
+                        file = read_svdag.Svdag(painted.read_bytes())
+                        self.assertEqual(file.without_colours(), bare)
+                        self.assertEqual(file.colours, self.shown(painted, range(level, -1, -2)))
+                        self.assertGreater(len(file.colours), 0)
+
+    def test_both_readers_reject_damaged_colours(self):
+        dag = self.bake("city", 1200, "-r", "32")
+        painted = dag.with_name("painted.svdag")
+        run("tests/paint_dag", dag, painted, 5, 9)
+        good = painted.read_bytes()
+        self.assertEqual(repaired(good), good)
+        file = read_svdag.Svdag(good)
+        cases = {"level 0": (864, 0), "level 6": (864, 6), "another level": (864, 4), "error": (870, 255), "version": (8, 2),
+                 "fewer colours": (856, good[856] ^ 1), "reserved": (888, 1), "the chunk's place": (file.directory_at + 8, 1),
+                 "the first number": (file.directory_at, 1), "runs": (file.chunks_at, good[file.chunks_at] ^ 1),
+                 "a group": (file.chunks_at + 5, good[file.chunks_at + 5] ^ 1)}
+        for what, (at, value) in cases.items():
+            with self.subTest(what):
+                damaged = bytearray(good)
+                damaged[at] = value
+                damaged = repaired(damaged)
+                with self.assertRaises(read_svdag.InvalidFile):
+                    read_svdag.Svdag(damaged)
+                painted.write_bytes(damaged)
+                with self.assertRaises(AssertionError):
+                    run("tests/paint_dag", painted)
 
     def test_bounds_and_empty_bounds(self):
         dag = self.bake("city", 1200, "-r", "64", "--bounds=0,-10,0,20,10,20")

@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "io/dag/colours/colours_check.h"
 #include "io/dag/compact/compact_check.h"
 #include "io/dag/layers/root_views.h"
 #include "io/dag/pack/pack_format.h"
@@ -53,11 +54,11 @@ std::vector<uint64_t> read_whole(const std::string& path, uint64_t max_bytes) {
 }
 
 void check_header(const Header& h, const std::string& path) {
-  if (h.version != 1 && h.version != 2)
+  if (h.version < 1 || h.version > kMaxVersion)
     fail_input(path, "has format version " + std::to_string(h.version) +
-                         ", this program reads versions 1 and 2");
+                         ", this program reads versions 1 to " + std::to_string(kMaxVersion));
   require(h.layout <= 1 && h.layer_kind < std::size(kLayerKindNames) &&
-              h.version == version_of(Layout(h.layout), LayerKind(h.layer_kind)),
+              h.version == version_of(Layout(h.layout), LayerKind(h.layer_kind), has_colours(h)),
           path, "impossible layout");
   require(h.header_bytes == sizeof(Header), path, "wrong header size");
   require(h.levels >= 3 && h.levels <= kMaxSections + 1, path,
@@ -80,6 +81,14 @@ void check_header(const Header& h, const std::string& path) {
   require(h.layer_count <= kMaxLayers && h.has_union <= 1 && h.layers_offset <= h.file_bytes &&
               h.layers_bytes <= h.file_bytes - h.layers_offset,
           path, "impossible layers");
+  const auto is_inside = [&](uint64_t offset, uint64_t bytes, uint64_t unit) {
+    return offset % kSectionAlignment == 0 && offset >= sizeof(Header) && offset <= h.file_bytes &&
+           bytes <= h.file_bytes - offset && bytes % unit == 0;
+  };
+  require(!has_colours(h) ||
+              (h.colour_level <= h.levels && is_inside(h.chunks_offset, h.chunks_bytes, 4) &&
+               is_inside(h.directory_offset, h.directory_bytes, sizeof(ColourEntry))),
+          path, "impossible colours");
 }
 
 void check_bricks(const DagView& view, const std::string& path) {
@@ -124,6 +133,7 @@ PlainFile read_plain_file(const std::string& path, uint64_t max_bytes) {
     if (const auto defect = CompactCheck(file.words.data()).run())
       require(false, path, defect->sentence);
   }
+  if (const auto defect = colours_defect(file.words.data())) require(false, path, defect->sentence);
   file.view = dag_view(file.words.data());
   const auto* const table =
       reinterpret_cast<const std::byte*>(file.words.data()) + file.header().layers_offset;

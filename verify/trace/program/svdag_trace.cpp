@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "io/dag/colours/dag_colours.h"
 #include "io/units.h"
 #include "io/verdict.h"
 #include "streaming/error.h"
@@ -131,8 +132,29 @@ std::string dump_of(const TraceResults& results) {
   return bytes;
 }
 
-// Lambert shading by the soft light, plus ambient occlusion, in the colours of the layers, or grey.
-std::string picture_of(const TraceResults& results, const Workload& work, const LayerTable& table) {
+// The part of light that what a pixel shows reflects: the file's colours, else those of its layers,
+// else white.
+Vec3 albedo_of_pixel(const TraceResults& results, size_t pixel, const PlainFile& file,
+                     const DagColours* colours) {
+  if (colours != nullptr) {
+    const Hit& hit = results.hits[pixel];
+    const uint32_t shift = file.view.levels - hit.level;
+    const uint32_t colour = svdag_colour(colours->view(), hit.level, hit.voxel[0] >> shift,
+                                         hit.voxel[1] >> shift, hit.voxel[2] >> shift);
+    if (colour != kNoColour)
+      return albedo_of({uint8_t(colour), uint8_t(colour >> 8), uint8_t(colour >> 16)});
+  } else if (results.layers[pixel] != kNoLayer) {
+    return albedo_of(file.layers.layers[results.layers[pixel]].colour);
+  }
+  return Vec3{{1, 1, 1}};
+}
+
+// Lambert shading by the soft light, plus ambient occlusion.
+std::string picture_of(const TraceResults& results, const Workload& work, const PlainFile& file,
+                       const std::string& path) {
+  MemoryBudget budget;
+  std::optional<DagColours> colours;
+  if (has_colours(file.header())) colours.emplace(file.words.data(), path, &budget);
   std::string bytes = "P6\n" + std::to_string(work.picture.width) + " " +
                       std::to_string(work.picture.height) + "\n255\n";
   const double n = work.secondary.samples;
@@ -143,9 +165,7 @@ std::string picture_of(const TraceResults& results, const Workload& work, const 
       const double facing = dot(surfel.normal, normalized(work.light.centre - surfel.point));
       const double sun = (1 - results.blocked[kSoftRays][pixel] / n) * (facing > 0 ? facing : 0);
       const double sky = 1 - results.blocked[kOcclusionRays][pixel] / n;
-      const uint32_t layer = results.layers[pixel];
-      const Vec3 albedo =
-          layer == kNoLayer ? Vec3{{1, 1, 1}} : albedo_of(table.layers[layer].colour);
+      const Vec3 albedo = albedo_of_pixel(results, pixel, file, colours ? &*colours : nullptr);
       for (int c = 0; c < 3; ++c) colour[c] = square_root(albedo[c] * (0.45 * sun + 0.5 * sky));
     }
     for (int c = 0; c < 3; ++c) bytes += char(uint8_t(255 * (colour[c] < 1 ? colour[c] : 1)));
@@ -214,7 +234,7 @@ int run(const TraceOptions& options) {
   const bool differs = options.compare && report_differences(results, gpu, &verdict) != 0;
   std::printf("%s", (options.json ? verdict.json() + "\n" : verdict.text()).c_str());
   dump.write([&] { return dump_of(results); });
-  picture.write([&] { return picture_of(results, work, file.layers); });
+  picture.write([&] { return picture_of(results, work, file, options.file); });
   dump.commit();
   picture.commit();
   return int(differs ? ExitCode::kDiffers : ExitCode::kOk);
