@@ -10,18 +10,6 @@ namespace {
 constexpr double kMargin = 0x1p-20;      // texels around a polygon
 constexpr int kMaxRectangles = 1 << 14;  // looked at for one polygon
 
-// a / b, rounded down, for b > 0.
-int64_t floor_div(int64_t a, int64_t b) noexcept {
-  return a / b - (a % b < 0 ? 1 : 0);
-}
-
-int64_t wrapped(int64_t i, int64_t size, Wrap wrap) noexcept {
-  if (i >= 0 && i < size) return i;
-  if (wrap == Wrap::kClamp) return std::clamp<int64_t>(i, 0, size - 1);
-  const int64_t turn = floor_div(i, size), at = i - turn * size;
-  return wrap == Wrap::kMirror && turn % 2 != 0 ? size - 1 - at : at;
-}
-
 struct Interval {
   int64_t first, last;
 };

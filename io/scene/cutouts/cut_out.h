@@ -19,6 +19,7 @@
 #include <memory>
 
 #include "io/scene/cutouts/alpha_image.h"
+#include "io/scene/cutouts/wrap.h"
 
 namespace svdag {
 
@@ -49,7 +50,6 @@ struct TextureBox {
 // The bounds of a polygon of one corner or more.
 TextureBox bounds_of(const TexturePolygon& polygon) noexcept;
 
-enum class Wrap : uint8_t { kRepeat, kMirror, kClamp };
 enum class Opacity : uint8_t { kTransparent, kOpaque, kMixed };
 
 struct CutOut {

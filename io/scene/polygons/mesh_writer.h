@@ -111,6 +111,11 @@ class MeshWriter {
   // Of a soup: triangles of a material that is cut out (BatchWriter).
   void cut_out(const CutOut* cut) { out_.cut_out(cut); }
   void add_cut(const Triangle& t, const TextureCorners& texture) { out_.add_cut(t, texture); }
+  // Of a soup: what colours its points (BatchWriter).
+  void paint(const Paint* paint) { out_.paint(paint); }
+  void add_painted(const Triangle& t, const TextureCorners& texture, const CornerColours& colours) {
+    out_.add_painted(t, texture, colours);
+  }
 
   // Passes everything on.
   void finish() {
