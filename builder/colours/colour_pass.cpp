@@ -27,8 +27,8 @@
 namespace svdag {
 namespace {
 
-constexpr int kPartLog2 = 5;             // of the side of a part, in cubes of level K
-constexpr size_t kPartsPerWorker = 16;   // walked before their colours are passed on
+constexpr int kPartLog2 = 5;            // of the side of a part, in cubes of level K
+constexpr size_t kPartsPerWorker = 16;  // walked before their colours are passed on
 constexpr uint64_t kListedBytes = 8 * sizeof(ListedTriangle);
 
 // Whether the closed triangle meets the closed cube.
@@ -65,9 +65,9 @@ struct PreparedTriangles {
       const PaintedTriangle& t = triangles[i];
       shares.emplace_back(t, setups[i], paints, side_log2);
       const auto& colour = t.corners[0].colour;
-      one_colours.push_back(t.has_one_colour() ? uint64_t(colour[0]) << 32 |
-                                                     uint64_t(colour[1]) << 16 | colour[2]
-                                               : kVarying);
+      one_colours.push_back(t.has_one_colour()
+                                ? uint64_t(colour[0]) << 32 | uint64_t(colour[1]) << 16 | colour[2]
+                                : kVarying);
     }
   }
 
@@ -213,7 +213,10 @@ class PartWalker {
     if (is_solid_ || node.cube.level == level_) return false;
     const uint64_t colour = triangles.one_colour_of(list);
     if (colour == PreparedTriangles::kVarying) return false;
-    out->push_back({morton(node.cube.coordinate), uint8_t(node.cube.level), true, true,
+    out->push_back({morton(node.cube.coordinate),
+                    uint8_t(node.cube.level),
+                    true,
+                    true,
                     {uint16_t(colour >> 32), uint16_t(colour >> 16), uint16_t(colour)}});
     return true;
   }
@@ -352,8 +355,8 @@ class SceneReader {
       return out_.bins->add(t);
     }
     if (out_.triangles.size() == out_.triangles.capacity()) {
-      const size_t room =
-          size_t(std::min<uint64_t>(max_triangles_, std::max<size_t>(1024, 2 * out_.triangles.size())));
+      const size_t room = size_t(
+          std::min<uint64_t>(max_triangles_, std::max<size_t>(1024, 2 * out_.triangles.size())));
       out_.memory.resize(room * PreparedTriangles::kBytes, kPurpose);
       out_.triangles.reserve(room);
     }
@@ -445,16 +448,17 @@ class ColourPass {
     SpillFile* const file = workspace_.scratch()->transient();
     if (bin.triangles <= max_triangles_) {
       std::vector<PaintedTriangle> triangles(size_t(bin.triangles));
-      const auto memory = workspace_.budget()->reserve(
-          bin.triangles * PreparedTriangles::kBytes, "triangles with colours");
+      const auto memory = workspace_.budget()->reserve(bin.triangles * PreparedTriangles::kBytes,
+                                                       "triangles with colours");
       PaintedReader reader(file, bin, workspace_.budget());
       for (PaintedTriangle& t : triangles) reader.read(&t);
       free(bin);
       return walk(node, triangles);
     }
     if (node.cube.level == level_) return sum_bin(node, bin);
-    const int depth = PaintedBins::depth_for(
-        workspace_.shares().open_bins, std::min(level_ - node.cube.level, 2), *workspace_.scratch());
+    const int depth =
+        PaintedBins::depth_for(workspace_.shares().open_bins, std::min(level_ - node.cube.level, 2),
+                               *workspace_.scratch());
     PaintedBins parts(grid_.levels, node.cube, depth, workspace_.scratch());
     {
       PaintedReader reader(file, bin, workspace_.budget());
@@ -475,8 +479,8 @@ class ColourPass {
       PaintedReader reader(workspace_.scratch()->transient(), bin, workspace_.budget());
       std::vector<PaintedTriangle> triangles;
       const auto add = [&] {
-        const PreparedTriangles prepared(triangles, scene_.paints, node.cube.side_log2(grid_.levels),
-                                         &executor_);
+        const PreparedTriangles prepared(triangles, scene_.paints,
+                                         node.cube.side_log2(grid_.levels), &executor_);
         walkers_[0].add(prepared, node.cube, prepared.all(), true, &sum);
         triangles.clear();
       };
@@ -605,9 +609,8 @@ ColourPassReport colour_cubes(const DagFile& file, const Scene& scene,
   LapTimer timer;
   const uint64_t max_triangles =
       std::max<uint64_t>(workspace->shares().triangles / PreparedTriangles::kBytes, 1024);
-  const int bin_depth =
-      PaintedBins::depth_for(workspace->shares().open_bins,
-                             config.level.value_or(kMinColourLevel), *workspace->scratch());
+  const int bin_depth = PaintedBins::depth_for(
+      workspace->shares().open_bins, config.level.value_or(kMinColourLevel), *workspace->scratch());
   PaintedScene painted;
   SceneReader reader(grid, max_triangles, bin_depth, workspace, &painted);
   progress->phase("read", 0, "triangles");

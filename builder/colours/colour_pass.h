@@ -1,8 +1,8 @@
 // The colours of the covered cubes of a finished DAG: a pass over its scene, after the merge.
 //
-// The scene is read again and snapped as it was for the bake. Its triangles travel with what colours
-// them, in memory or in bins of octree cubes that are divided until one fits. Per bin, DAG and
-// triangles are walked down together to the colour level K: children without a set voxel are
+// The scene is read again and snapped as it was for the bake. Its triangles travel with what
+// colours them, in memory or in bins of octree cubes that are divided until one fits. Per bin, DAG
+// and triangles are walked down together to the colour level K: children without a set voxel are
 // skipped, and a node whose triangles all have the same one colour ends the walk. A cube of level K
 // gets the colour of builder/colours/cube_share.h. Parts of a bin are walked in parallel and passed
 // on in Morton order, so the sequence does not depend on threads, memory or the order of triangles,
@@ -33,11 +33,11 @@ struct ColourPassConfig {
 
 struct ColourPassReport {
   SceneCounts scene;
-  int level = 0;                // K
-  double texels_per_cube = 0;   // mean along an edge of a cube of level K; 0: none have texels
-  uint64_t entries = 0;         // passed to the sink
-  uint64_t pairs = 0;           // of a triangle and a cube that were evaluated
-  uint64_t cubes_by_points = 0; // without area: coloured by nearest points
+  int level = 0;                 // K
+  double texels_per_cube = 0;    // mean along an edge of a cube of level K; 0: none have texels
+  uint64_t entries = 0;          // passed to the sink
+  uint64_t pairs = 0;            // of a triangle and a cube that were evaluated
+  uint64_t cubes_by_points = 0;  // without area: coloured by nearest points
   double split_seconds = 0, walk_seconds = 0;
 };
 

@@ -111,8 +111,8 @@ ShareSetup::ShareSetup(const PaintedTriangle& t, const TriangleSetup& setup, con
     factor_[c] = paint.factor[size_t(c)] * kWhite16;
     for (size_t k = 0; k < 3; ++k)
       corner_colour_[c][k] = double(t.corners[k].colour[size_t(c)]) / kWhite16;
-    has_colours_ |= corner_colour_[c][0] != 1 || corner_colour_[c][1] != 1 ||
-                    corner_colour_[c][2] != 1;
+    has_colours_ |=
+        corner_colour_[c][0] != 1 || corner_colour_[c][1] != 1 || corner_colour_[c][2] != 1;
     colours_[c] = interpolate(corner_colour_[c][0], corner_colour_[c][1], corner_colour_[c][2]);
   }
   if (!paint.image) return;
@@ -185,8 +185,8 @@ CubeShare ShareSetup::share_in(const LatticePoint& corner) const noexcept {
     at_a[k] = double(position_[k][i_] - corner[i_]) * unit_;
     at_b[k] = double(position_[k][j_] - corner[j_]) * unit_;
   }
-  const double z = double(position_[0][w_] - corner[w_]) * unit_ -
-                   (slope_a_ * at_a[0] + slope_b_ * at_b[0]);
+  const double z =
+      double(position_[0][w_] - corner[w_]) * unit_ - (slope_a_ * at_a[0] + slope_b_ * at_b[0]);
   const double z_low = z + std::min(slope_a_, 0.0) + std::min(slope_b_, 0.0);
   const double z_high = z + std::max(slope_a_, 0.0) + std::max(slope_b_, 0.0);
   double edge[3], edge_low[3];
@@ -201,7 +201,8 @@ CubeShare ShareSetup::share_in(const LatticePoint& corner) const noexcept {
     const double a = -at_a[0], b = -at_b[0];
     const ColourSum sum = (sample(a + 0.25, b + 0.25) + sample(a + 0.75, b + 0.25)) +
                           (sample(a + 0.25, b + 0.75) + sample(a + 0.75, b + 0.75));
-    return share_of(sum, has_holes_ ? stretch_ * (double(sum[3]) / (4 * double(kWhite16))) : stretch_);
+    return share_of(sum,
+                    has_holes_ ? stretch_ * (double(sum[3]) / (4 * double(kWhite16))) : stretch_);
   }
   Polygon first, second;
   first.size = 0;
@@ -213,8 +214,7 @@ CubeShare ShareSetup::share_in(const LatticePoint& corner) const noexcept {
   const auto clip = [&](double by_a, double by_b, double base) {
     const int size = polygon->size;
     double value[Polygon::kMaxCorners];
-    for (int k = 0; k < size; ++k)
-      value[k] = by_a * polygon->a[k] + by_b * polygon->b[k] + base;
+    for (int k = 0; k < size; ++k) value[k] = by_a * polygon->a[k] + by_b * polygon->b[k] + base;
     next->size = 0;
     for (int k = 0; k < size; ++k) {
       const int l = k + 1 == size ? 0 : k + 1;
@@ -316,8 +316,8 @@ void TexelDensity::add(const PaintedTriangle& t, int fraction) noexcept {
                      &c = t.corners[2].texture;
   const double du[2] = {b.u - a.u, c.u - a.u}, dv[2] = {b.v - a.v, c.v - a.v};
   double stretch = larger_stretch(f, du, dv);
-  if (own_area > 0 && (t.corners[0].colour != t.corners[1].colour ||
-                       t.corners[0].colour != t.corners[2].colour))
+  if (own_area > 0 &&
+      (t.corners[0].colour != t.corners[1].colour || t.corners[0].colour != t.corners[2].colour))
     stretch = std::max(stretch, 1 / std::sqrt(2 * own_area));
   texels += in_units(own_area * stretch);
   area += in_units(own_area);

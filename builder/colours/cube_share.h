@@ -29,9 +29,10 @@
 //   its own colours; beyond, samples would miss texels, and the bilinear mean is nearer.
 // * Cut-outs. A texel that is cut out weighs nothing (io/scene/colours/linear_image.h).
 // * Which triangles meet Q matters where they have next to no area (a wall that touches the face
-//   of Q): a triangle with a >= 2^20 does, others and very large ones are decided in exact integers.
-//   So it does not depend on the descent, which is on the safe side.
-// * No area. If the a sum to 0, the colour is the mean of the colours at the points that are nearest
+//   of Q): a triangle with a >= 2^20 does, others and very large ones are decided in exact
+//   integers. So it does not depend on the descent, which is on the safe side.
+// * No area. If the a sum to 0, the colour is the mean of the colours at the points that are
+// nearest
 //   to Q's centre, weighted by their opacity, or equally if nothing is opaque there.
 // * One colour. A cube is constant if all triangles that meet it have the same one colour.
 #pragma once
@@ -77,8 +78,8 @@ class ShareSetup {
 
   LatticePoint position_[3];
   int side_log2_;
-  double unit_;                       // 1 / side
-  int w_, i_, j_;                     // dominant axis, and the two of the projection
+  double unit_;    // 1 / side
+  int w_, i_, j_;  // dominant axis, and the two of the projection
   bool has_area_ = false;
   double slope_a_ = 0, slope_b_ = 0;  // z = slope_a a + slope_b b + a constant
   double edge_a_[3], edge_b_[3];      // coefficients of the edge functions
@@ -89,7 +90,7 @@ class ShareSetup {
   std::array<uint16_t, 3> colour_;
   double factor_[3];
   LevelSampler sampler_;
-  Affine2 u_, v_, colours_[3];        // relative to corner 0
+  Affine2 u_, v_, colours_[3];  // relative to corner 0
   double corner_u_[3], corner_v_[3], corner_colour_[3][3];
 };
 

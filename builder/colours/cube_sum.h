@@ -40,7 +40,7 @@ class CubeSum {
 
     void add(const CubeShare& share, uint64_t by) {
       weight += by;
-      for (size_t c = 0; c < 3; ++c) sum[c] += (unsigned __int128)(by) * share.colour[c];
+      for (size_t c = 0; c < 3; ++c) sum[c] += (unsigned __int128)(by)*share.colour[c];
     }
     uint16_t rounded(size_t c) const {
       return weight == 0 ? uint16_t(0) : uint16_t((2 * sum[c] + weight) / (2 * weight));

@@ -25,8 +25,7 @@ class PaintedBins {
   // The depth, 1 to `most`, for which the open blocks take at most `bytes`.
   static int depth_for(uint64_t bytes, int most, const Scratch& scratch) {
     int depth = 1;
-    while (depth < std::min(most, kMaxDepth) &&
-           scratch.block_bytes() << (3 * (depth + 1)) <= bytes)
+    while (depth < std::min(most, kMaxDepth) && scratch.block_bytes() << (3 * (depth + 1)) <= bytes)
       ++depth;
     return depth;
   }

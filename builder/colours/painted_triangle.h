@@ -18,7 +18,7 @@ constexpr uint32_t kOneColour = UINT32_MAX;
 struct PaintedTriangle {
   struct Corner {
     LatticePoint position{0};
-    TexturePoint texture{0, 0};  // in texels of the finest level
+    TexturePoint texture{0, 0};                                    // in texels of the finest level
     std::array<uint16_t, 3> colour{kWhite16, kWhite16, kWhite16};  // linear light
   };
   std::array<Corner, 3> corners;

@@ -29,9 +29,8 @@ Covered covered_by(int64_t i, int64_t coarse, int64_t fine) {
 }
 
 LinearImage::Level coarser(const LinearImage::Level& fine) {
-  LinearImage::Level level{std::max<int64_t>(1, fine.width / 2),
-                           std::max<int64_t>(1, fine.height / 2),
-                           {}};
+  LinearImage::Level level{
+      std::max<int64_t>(1, fine.width / 2), std::max<int64_t>(1, fine.height / 2), {}};
   level.texels.resize(size_t(level.width * level.height));
   std::vector<Covered> columns;
   for (int64_t i = 0; i < level.width; ++i)

@@ -1,8 +1,9 @@
 // A texture as colours are sampled from it: linear light in 16 bits a channel, and its mip map.
 //
 // A texel holds red, green, blue and a weight. The weight of an opaque texel is 65535. A texel that
-// a material cuts out weighs nothing and has no colour, so the colour of what is not there (magenta,
-// in many files) reaches no mean: the channels of coarser texels are sums of weighted colours.
+// a material cuts out weighs nothing and has no colour, so the colour of what is not there
+// (magenta, in many files) reaches no mean: the channels of coarser texels are sums of weighted
+// colours.
 //
 // A level has half the sides of the one before, rounded down, and a texel of it is the mean of what
 // it covers there, shares of texels included. So every level covers the image evenly, and

@@ -18,8 +18,8 @@ namespace svdag {
 struct Paint {
   std::shared_ptr<const LinearImage> image;  // null: none
   Wrap wrap_u = Wrap::kRepeat, wrap_v = Wrap::kRepeat;
-  bool nearest = false;                      // texels are squares, seen from near
-  std::array<double, 3> factor{1, 1, 1};     // of 0 .. 1
+  bool nearest = false;                   // texels are squares, seen from near
+  std::array<double, 3> factor{1, 1, 1};  // of 0 .. 1
 
   bool operator==(const Paint&) const = default;
 };

@@ -1,4 +1,5 @@
-// The texels of a PNG or JPEG image, their alpha or their mean colour. Only image.cpp uses the stb_image library.
+// The texels of a PNG or JPEG image, their alpha or their mean colour. Only image.cpp uses the
+// stb_image library.
 //
 // The image is decoded in a limited child process: first its head, then, in memory that depends
 // only on its size, its texels. So a smaller budget is an Error or makes no difference. Rejected:

@@ -299,9 +299,9 @@ class GltfReader {
         const TextureCorners corners =
             texture.empty() ? TextureCorners() : TextureCorners{texture[a], texture[b], texture[c]};
         if (paint == nullptr) return out_.add_cut(t, corners);
-        out_.add_painted(t, corners,
-                         colours.empty() ? kWhiteCorners
-                                         : CornerColours{colours[a], colours[b], colours[c]});
+        out_.add_painted(
+            t, corners,
+            colours.empty() ? kWhiteCorners : CornerColours{colours[a], colours[b], colours[c]});
       };
       if (primitive.has("indices")) {
         const Accessor indices = indices_of(primitive, mode);

@@ -26,10 +26,9 @@ GltfPaint paint_of(const GltfDocument& document, const JsonObject& material, dou
   const auto use = texture_use_of(document, base);
   if (!use) return result;
   const GltfImage image = image_of_texture(document, use->texture);
-  result.paint.image =
-      images->image(image.name, threshold, [&](MemoryBudget::Reservation* memory) {
-        return read_image(document, image, buffers, images->budget(), memory);
-      });
+  result.paint.image = images->image(image.name, threshold, [&](MemoryBudget::Reservation* memory) {
+    return read_image(document, image, buffers, images->budget(), memory);
+  });
   if (!result.paint.image) return result;
   result.use = *use;
   result.paint.wrap_u = use->wrap_u;

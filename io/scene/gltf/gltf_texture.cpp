@@ -80,8 +80,7 @@ std::vector<TexturePoint> texture_points(const GltfTextureUse& use, int64_t widt
   std::vector<TexturePoint> points;
   points.reserve(size_t(vertices));
   const JsonObject attributes = primitive.object("attributes");
-  const Accessor accessor =
-      buffers->accessor(attributes.whole_number(key_of(use).c_str()), "VEC2");
+  const Accessor accessor = buffers->accessor(attributes.whole_number(key_of(use).c_str()), "VEC2");
   if (accessor.count() != vertices)
     fail_input(primitive.path(), "has a primitive with " + std::to_string(accessor.count()) +
                                      " texture coordinates for " + std::to_string(vertices) +

@@ -36,7 +36,8 @@ class ColourPass : public testing::Test {
   }
 
   DagFile bake_scene(const std::string& path, int levels, Rule rule = Rule::kConservative) {
-    BuildConfig config = config_for(path, folder_.path() + "/" + std::to_string(++files_) + ".svdag", levels);
+    BuildConfig config =
+        config_for(path, folder_.path() + "/" + std::to_string(++files_) + ".svdag", levels);
     config.rule = rule;
     bake(config);
     return DagFile::open(config.output);
@@ -72,19 +73,18 @@ class ColourPass : public testing::Test {
     const std::vector<LatticePoint> cubes = covered(file, level);
     Colours colours;
     size_t next = 0;
-    report_ = colour_cubes(file, scene, {level}, &workspace, &executor, &progress, {},
-                           [&](std::span<const CubeColour> entries) {
-                             for (const CubeColour& e : entries) {
-                               const int up = 3 * (level - e.level);
-                               const size_t first = next;
-                               while (next < cubes.size() && morton(cubes[next]) >> up == e.morton)
-                                 colours[morton(cubes[next++])] = {
-                                     e.has_colour,
-                                     e.is_constant,
-                                     {e.linear[0], e.linear[1], e.linear[2]}};
-                               EXPECT_GT(next, first) << "an entry out of order, or of no cube";
-                             }
-                           });
+    report_ = colour_cubes(
+        file, scene, {level}, &workspace, &executor, &progress, {},
+        [&](std::span<const CubeColour> entries) {
+          for (const CubeColour& e : entries) {
+            const int up = 3 * (level - e.level);
+            const size_t first = next;
+            while (next < cubes.size() && morton(cubes[next]) >> up == e.morton)
+              colours[morton(cubes[next++])] = {
+                  e.has_colour, e.is_constant, {e.linear[0], e.linear[1], e.linear[2]}};
+            EXPECT_GT(next, first) << "an entry out of order, or of no cube";
+          }
+        });
     EXPECT_EQ(next, cubes.size());
     return colours;
   }
@@ -175,14 +175,12 @@ std::string random_scene(uint64_t seed, size_t count, uint64_t order = 0) {
   PaintedGlb glb;
   std::string rgba;
   const uint32_t width = 1 + uint32_t(random() % 20), height = 1 + uint32_t(random() % 20);
-  for (uint32_t i = 0; i < 4 * width * height; ++i)
-    rgba += char(i % 4 == 3 ? 255 : random() & 255);
+  for (uint32_t i = 0; i < 4 * width * height; ++i) rgba += char(i % 4 == 3 ? 255 : random() & 255);
   const int wraps[] = {33071, 33648, 10497};
-  const int texture =
-      glb.texture(width, height, rgba,
-                  {{"wrapS", wraps[random() % 3]},
-                   {"wrapT", wraps[random() % 3]},
-                   {"magFilter", random() % 2 == 0 ? 9728 : 9729}});
+  const int texture = glb.texture(width, height, rgba,
+                                  {{"wrapS", wraps[random() % 3]},
+                                   {"wrapT", wraps[random() % 3]},
+                                   {"magFilter", random() % 2 == 0 ? 9728 : 9729}});
   for (int kind = 0; kind < 5; ++kind) {
     std::vector<TestTriangle> triangles;
     for (size_t k = 0; k < count; ++k) {
@@ -200,7 +198,7 @@ std::string random_scene(uint64_t seed, size_t count, uint64_t order = 0) {
         for (Point& p : t.triangle.v) p[int(k) % 3] = double(int(8 * centre.x)) / 8;
       }
       if (k % 9 == 4 && !triangles.empty()) t = triangles.back();  // a duplicate
-      if (k % 9 == 5 && !triangles.empty()) {  // a neighbour, of another chart
+      if (k % 9 == 5 && !triangles.empty()) {                      // a neighbour, of another chart
         t.triangle.v[0] = triangles.back().triangle.v[0];
         t.triangle.v[1] = triangles.back().triangle.v[1];
       }
@@ -227,7 +225,8 @@ TEST_F(ColourPass, IsTheReferenceWhateverTheThreadsMemoryAndOrder) {
     SCOPED_TRACE(seed);
     const int levels = seed % 2 == 0 ? 4 : 5;
     const std::string path = write("scene.glb", random_scene(seed, 12));
-    const DagFile file = bake_scene(path, levels, seed % 5 == 0 ? Rule::kThin : Rule::kConservative);
+    const DagFile file =
+        bake_scene(path, levels, seed % 5 == 0 ? Rule::kThin : Rule::kConservative);
     for (int level = 3; level <= levels; ++level) {
       const Colours expected = reference(file, path, level);
       EXPECT_EQ(pass(file, path, level), expected) << level;
@@ -333,7 +332,8 @@ TEST_F(ColourPass, OneColourEndsTheWalkAtTheRoot) {
   glb.add(glb.material({1, 1, 1}), box(Point(0), Point(1)), false);
   const std::string path = write("scene.glb", glb.bytes());
   const DagFile file = bake_scene(path, 6);
-  EXPECT_EQ(pass(file, path, 6).begin()->second, (Stored{true, true, {kWhite16, kWhite16, kWhite16}}));
+  EXPECT_EQ(pass(file, path, 6).begin()->second,
+            (Stored{true, true, {kWhite16, kWhite16, kWhite16}}));
   EXPECT_EQ(report_.entries, 1u);
   EXPECT_EQ(report_.pairs, 0u);
 }
@@ -367,7 +367,8 @@ TEST_F(ColourPass, AForeignSceneIsRefusedWithTheNumberOfCubes) {
   EXPECT_EQ(failure(glb.bytes()), "");
   EXPECT_NE(failure(other.bytes()).find("78 of its cubes have no triangle"), std::string::npos)
       << failure(other.bytes());
-  EXPECT_NE(failure(smaller.bytes()).find("on axis z its voxels reach from 0 to 15, the scene from 0 to 8"),
+  EXPECT_NE(failure(smaller.bytes())
+                .find("on axis z its voxels reach from 0 to 15, the scene from 0 to 8"),
             std::string::npos)
       << failure(smaller.bytes());
 }

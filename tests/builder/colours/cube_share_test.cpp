@@ -38,15 +38,14 @@ PaintedTriangle random_triangle(double size) {
   t.paint = 0;
   const double at[3] = {uniform(0, kSide), uniform(0, kSide), uniform(0, kSide)};
   for (auto& corner : t.corners) {
-    for (int a = 0; a < 3; ++a)
-      corner.position[a] = int64_t(at[a] + uniform(-size, size) * kSide);
+    for (int a = 0; a < 3; ++a) corner.position[a] = int64_t(at[a] + uniform(-size, size) * kSide);
     for (uint16_t& c : corner.colour) c = uint16_t(whole(0, kWhite16));
   }
   return t;
 }
 
 struct Inside {
-  double area = 0;                // in faces
+  double area = 0;                 // in faces
   std::array<double, 3> centre{};  // weights of the corners
 };
 

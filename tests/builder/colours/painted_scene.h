@@ -30,9 +30,9 @@ class PaintedGlb {
   int texture(uint32_t width, uint32_t height, const std::string& rgba,
               const nlohmann::json& sampler = nlohmann::json::object()) {
     const std::string file = png(width, height, PngKind::kRgba, rgba);
-    const int image =
-        gltf_.append("images", {{"bufferView", gltf_.view(std::vector<char>(file.begin(), file.end()))},
-                                {"mimeType", "image/png"}});
+    const int image = gltf_.append(
+        "images", {{"bufferView", gltf_.view(std::vector<char>(file.begin(), file.end()))},
+                   {"mimeType", "image/png"}});
     return gltf_.append("textures",
                         {{"source", image}, {"sampler", gltf_.append("samplers", sampler)}});
   }
@@ -50,9 +50,9 @@ class PaintedGlb {
                                  {"TEXCOORD_0", pairs(points)}};
     if (with_colours) attributes["COLOR_0"] = gltf_.accessor(colours, "VEC3");
     const int mesh = gltf_.append(
-        "meshes", {{"primitives",
-                    {{{"attributes", attributes},
-                      {"material", gltf_.append("materials", material)}}}}});
+        "meshes",
+        {{"primitives",
+          {{{"attributes", attributes}, {"material", gltf_.append("materials", material)}}}}});
     roots_.push_back(gltf_.append("nodes", {{"mesh", mesh}}));
   }
   std::string bytes() {
