@@ -37,7 +37,7 @@ ALLOWED = {
     "io/scene/colours": STREAMING + ["io", "io/scene/cutouts", "io/scene/decoders"],
     "io/scene/mesh": STREAMING + ["io", "io/scene/cutouts", "io/scene/colours"],
     "io/scene/polygons": STREAMING + ["io", "io/scene/cutouts", "io/scene/colours", "io/scene/mesh"],
-    "io/scene/readers": STREAMING + ["io", "io/scene/mesh", "io/scene/polygons", "io/scene/decoders"],
+    "io/scene/readers": STREAMING + ["io", "io/scene/colours", "io/scene/mesh", "io/scene/polygons", "io/scene/decoders"],
     "io/scene/gltf": STREAMING + ["io", "io/scene/cutouts", "io/scene/colours", "io/scene/mesh", "io/scene/polygons", "io/scene/decoders", "io/scene/readers"],
     "io/scene": STREAMING + ["io", *DAG] + SCENE,
     **{room: STREAMING + ["io", *DAG] for room in DAG},

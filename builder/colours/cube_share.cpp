@@ -55,6 +55,13 @@ size_t level_for(double s, size_t levels) noexcept {
   return std::min(size_t(std::ilogb(s) - 1), levels - 1);
 }
 
+// From coordinates in texels of the finest level to those of another one.
+TexturePoint scale_to(const LinearImage& image, size_t level) noexcept {
+  const auto& levels = image.levels();
+  return {double(levels[level].width) / double(levels[0].width),
+          double(levels[level].height) / double(levels[0].height)};
+}
+
 unsigned __int128 in_units(double value) noexcept {
   constexpr double kMost = 0x1p90;
   return (unsigned __int128)(std::min(value * 0x1p20, kMost) + 0.5);
@@ -124,16 +131,16 @@ ShareSetup::ShareSetup(const PaintedTriangle& t, const TriangleSetup& setup, con
   const double range = std::max(range_of(p.u, q.u, r.u), range_of(p.v, q.v, r.v));
   const double span = has_area_ ? std::min(larger_stretch(f, du, dv), range) : range;
   const auto& levels = paint.image->levels();
-  const size_t level = level_for(span, levels.size());
-  sampler_ = LevelSampler(paint, level, paint.nearest && span < 2);
-  const double by_u = double(levels[level].width) / double(levels[0].width);
-  const double by_v = double(levels[level].height) / double(levels[0].height);
+  paint_ = &paint;
+  image_level_ = level_for(span, levels.size());
+  sampler_ = LevelSampler(paint, image_level_, paint.nearest && span < 2);
   for (size_t k = 0; k < 3; ++k) {
-    corner_u_[k] = t.corners[k].texture.u * by_u;
-    corner_v_[k] = t.corners[k].texture.v * by_v;
+    corner_u_[k] = t.corners[k].texture.u;
+    corner_v_[k] = t.corners[k].texture.v;
   }
-  u_ = interpolate(corner_u_[0], corner_u_[1], corner_u_[2]);
-  v_ = interpolate(corner_v_[0], corner_v_[1], corner_v_[2]);
+  const auto [by_u, by_v] = scale_to(*paint.image, image_level_);
+  u_ = interpolate(corner_u_[0] * by_u, corner_u_[1] * by_u, corner_u_[2] * by_u);
+  v_ = interpolate(corner_v_[0] * by_v, corner_v_[1] * by_v, corner_v_[2] * by_v);
 }
 
 // The affine function of the projection with these values at the corners.
@@ -146,9 +153,10 @@ ShareSetup::Affine2 ShareSetup::interpolate(double at0, double at1, double at2) 
 }
 
 // `colour`: of the corners, at the point.
-inline ColourSum ShareSetup::sample_at(double u, double v, const double colour[3]) const noexcept {
+inline ColourSum ShareSetup::sample_at(const LevelSampler& sampler, double u, double v,
+                                       const double colour[3]) const noexcept {
   constexpr float kFull = kWhite16;
-  ColourSum texel = has_texture_ ? sampler_.at(u, v) : ColourSum{kFull, kFull, kFull, kFull};
+  ColourSum texel = has_texture_ ? sampler.at(u, v) : ColourSum{kFull, kFull, kFull, kFull};
   if (has_colours_) texel *= ColourSum{float(colour[0]), float(colour[1]), float(colour[2]), 1};
   return texel;
 }
@@ -162,7 +170,8 @@ inline ColourSum ShareSetup::sample(double a, double b) const noexcept {
   if (has_colours_) {
     for (int c = 0; c < 3; ++c) colour[c] = at(colours_[c]);
   }
-  return has_texture_ ? sample_at(at(u_), at(v_), colour) : sample_at(0, 0, colour);
+  return has_texture_ ? sample_at(sampler_, at(u_), at(v_), colour)
+                      : sample_at(sampler_, 0, 0, colour);
 }
 
 // `sum`: of samples whose weights are, together, `weight`. `full`: the area in 2^-kAreaBits.
@@ -301,9 +310,18 @@ CubeShare ShareSetup::nearest_to_centre(const LatticePoint& corner) const noexce
   };
   double colour[3];
   for (int c = 0; c < 3; ++c) colour[c] = at(corner_colour_[c]);
-  const ColourSum sum =
-      has_texture_ ? sample_at(at(corner_u_), at(corner_v_), colour) : sample_at(0, 0, colour);
-  return share_of(sum, double(sum[3]));
+  if (!has_texture_) return share_of(sample_at(sampler_, 0, 0, colour), kWhite16);
+  const double u = at(corner_u_), v = at(corner_v_);
+  const auto in_level = [&](size_t level, const LevelSampler& sampler) {
+    const auto [by_u, by_v] = scale_to(*paint_->image, level);
+    return sample_at(sampler, u * by_u, v * by_v, colour);
+  };
+  ColourSum sum = in_level(image_level_, sampler_);
+  const double opacity = double(sum[3]);
+  const size_t levels = paint_->image->levels().size();
+  for (size_t level = image_level_; !(sum[3] > 0) && level < levels; ++level)
+    sum = in_level(level, LevelSampler(*paint_, level, false));
+  return share_of(sum, opacity);
 }
 
 void TexelDensity::add(const PaintedTriangle& t, int fraction) noexcept {

@@ -33,7 +33,8 @@
 //   integers. So it does not depend on the descent, which is on the safe side.
 // * No area. If the a sum to 0, the colour is the mean of the colours at the points that are
 // nearest
-//   to Q's centre, weighted by their opacity, or equally if nothing is opaque there.
+//   to Q's centre, weighted by their opacity. If nothing is opaque there either (what Q has of a
+//   cut-out is its edge), each has the colour of the finest level that is not transparent there.
 // * One colour. A cube is constant if all triangles that meet it have the same one colour.
 #pragma once
 
@@ -62,7 +63,8 @@ class ShareSetup {
 
   // In the cube with minimum corner `corner`, which a box around the triangle meets.
   CubeShare share_in(const LatticePoint& corner) const noexcept;
-  // At the point that is nearest to the centre of the cube; area: opacity, 0 .. 65535.
+  // At the point that is nearest to the centre of the cube; area: opacity, 0 .. 65535. Where it is
+  // transparent: of the finest level of the texture that is not.
   CubeShare nearest_to_centre(const LatticePoint& corner) const noexcept;
 
  private:
@@ -73,7 +75,8 @@ class ShareSetup {
 
   Affine2 interpolate(double at0, double at1, double at2) const noexcept;
   ColourSum sample(double a, double b) const noexcept;
-  ColourSum sample_at(double u, double v, const double colour[3]) const noexcept;
+  ColourSum sample_at(const LevelSampler& sampler, double u, double v,
+                      const double colour[3]) const noexcept;
   CubeShare share_of(const ColourSum& sum, double area) const noexcept;
 
   LatticePoint position_[3];
@@ -86,12 +89,15 @@ class ShareSetup {
   double stretch_ = 0;                // |n| / |n_w|, times 2^kAreaBits
   double determinant_ = 0;            // of the two edges from corner 0 in the projection
   double to1_[2], to2_[2];            // these edges
+  size_t image_level_ = 0;
   bool has_one_colour_, has_texture_ = false, has_holes_ = false, has_colours_ = false;
   std::array<uint16_t, 3> colour_;
   double factor_[3];
+  const Paint* paint_ = nullptr;
   LevelSampler sampler_;
-  Affine2 u_, v_, colours_[3];  // relative to corner 0
-  double corner_u_[3], corner_v_[3], corner_colour_[3][3];
+  Affine2 u_, v_, colours_[3];        // relative to corner 0
+  double corner_u_[3], corner_v_[3];  // in texels of the finest level
+  double corner_colour_[3][3];
 };
 
 // The product of area and larger stretch of a triangle, in texels times voxels, and its area, in

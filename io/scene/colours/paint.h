@@ -24,8 +24,8 @@ struct Paint {
   bool operator==(const Paint&) const = default;
 };
 
-// Linear light of the corners of a triangle: [corner][channel].
-using CornerColours = std::array<std::array<uint16_t, 3>, 3>;
+using VertexColour = std::array<uint16_t, 3>;       // linear light
+using CornerColours = std::array<VertexColour, 3>;  // of a triangle
 constexpr CornerColours kWhiteCorners = {{{kWhite16, kWhite16, kWhite16},
                                           {kWhite16, kWhite16, kWhite16},
                                           {kWhite16, kWhite16, kWhite16}}};

@@ -1,7 +1,6 @@
 // The colours of the points of a glTF primitive: base colour texture x factor x COLOR_0.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "io/scene/colours/linear_images.h"
@@ -22,7 +21,6 @@ GltfPaint paint_of(const GltfDocument& document, const JsonObject& material, dou
 // The base colour's factor, as a colour: that of a material without texture.
 Colour factor_colour(const JsonObject& material);
 
-using VertexColour = std::array<uint16_t, 3>;  // linear light
 // COLOR_0 of all vertices of `primitive`, reserved in *memory; values beyond 1 are clamped. Empty
 // without.
 std::vector<VertexColour> vertex_colours(const JsonObject& primitive, uint64_t vertices,
