@@ -1,5 +1,6 @@
 #include "builder/colours/colour_file.h"
 
+#include "builder/colours/spilled_colours.h"
 #include "io/dag/open_dag.h"
 #include "streaming/error.h"
 #include "streaming/spill/scratch_dir.h"
@@ -32,7 +33,7 @@ void check_file(const ColourFileConfig& config, const DagFile& file) {
 
 }  // namespace
 
-ColourPassReport colour_file(const ColourFileConfig& config, const OpenColourOutput& open,
+ColourPassReport colour_file(const ColourFileConfig& config, const WriteColoured& write,
                              Executor* executor, Progress* progress) {
   Workspace workspace(ScratchDir::path_for(config.output, config.scratch), config.memory,
                       executor->workers());
@@ -40,17 +41,21 @@ ColourPassReport colour_file(const ColourFileConfig& config, const OpenColourOut
   const WorkRoom room = workspace.room();
   const DagFile file = open_dag(config.file, {}, &room);
   check_file(config, file);
-  SpillSpace vertices = workspace.vertices();
-  const Scene scene(scene_of(config, file), workspace.budget(), &vertices);
-  const InputWatch watch = scene.watch();
-  std::unique_ptr<ColourOutput> output;
-  const ColourPassReport report = watch.guard([&] {
-    return colour_cubes(
-        file, scene, config.pass, &workspace, executor, progress,
-        [&](int level) { output = open(file, level, config, &workspace); },
-        [&](std::span<const CubeColour> entries) { output->add(entries); });
-  });
-  output->finish();
+  SpilledColours colours(workspace.scratch());
+  ColourPassReport report;
+  {
+    SpillSpace vertices = workspace.vertices();
+    const Scene scene(scene_of(config, file), workspace.budget(), &vertices);
+    report = scene.watch().guard([&] {
+      return colour_cubes(file, scene, config.pass, &workspace, executor, progress,
+                          [&](std::span<const CubeColour> entries) { colours.add(entries); });
+    });
+  }
+  colours.finish();
+  progress->phase("write", 0);
+  write(
+      file, report.level, [&] { return colours.next(); }, room);
+  progress->finish();
   return report;
 }
 

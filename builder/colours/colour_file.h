@@ -1,10 +1,9 @@
-// Adds colours to a `.svdag`: the work of `svdag colour`, but for the format of what is written.
+// Adds colours to a `.svdag`, except for the format in which they are written.
 #pragma once
 
 #include <cstdint>
 #include <functional>
-#include <memory>
-#include <optional>
+#include <span>
 #include <string>
 
 #include "builder/colours/colour_pass.h"
@@ -20,25 +19,20 @@ struct ColourFileConfig {
   std::string scratch;  // --scratch: parent of the scratch folder; empty: the output's folder
 };
 
-// Writes the file with colours. The output's path names the old file until finish() has returned;
-// without finish() nothing is left.
-class ColourOutput {
- public:
-  virtual ~ColourOutput() = default;
-  // Adds the next entries of the sequence (io/dag/colours/cube_colour.h).
-  virtual void add(std::span<const CubeColour> entries) = 0;
-  virtual void finish() = 0;
-};
+// Returns the next colours of the sequence (io/dag/colours/cube_colour.h), valid until the next
+// call; empty at the end.
+using CubeColourSource = std::function<std::span<const CubeColour>()>;
 
-// Opens the output: of the colours of `file` at colour level `level`.
-using OpenColourOutput = std::function<std::unique_ptr<ColourOutput>(
-    const DagFile& file, int level, const ColourFileConfig& config, Workspace* workspace)>;
+// Writes the file with colours of colour level `level`. The output's path names the old file until
+// it returns.
+using WriteColoured = std::function<void(const DagFile& file, int level,
+                                         const CubeColourSource& source, const WorkRoom& room)>;
 
 // The scene is placed as the file says, so --transform, --up and --scale need not be given again;
 // if they are, they must be the same. Errors: kUsage for a file without a union, whose colours
 // would belong to no root, and for a level that is not kMinColourLevel .. L; kBadInput as
 // colour_cubes(), and if a file of the scene changes meanwhile.
-ColourPassReport colour_file(const ColourFileConfig& config, const OpenColourOutput& open,
+ColourPassReport colour_file(const ColourFileConfig& config, const WriteColoured& write,
                              Executor* executor, Progress* progress);
 
 }  // namespace svdag

@@ -601,9 +601,7 @@ void check_bounds(const DagFile& file, const PaintedScene& scene) {
 
 ColourPassReport colour_cubes(const DagFile& file, const Scene& scene,
                               const ColourPassConfig& config, Workspace* workspace,
-                              Executor* executor, Progress* progress,
-                              const std::function<void(int level)>& on_level,
-                              const CubeColourSink& sink) {
+                              Executor* executor, Progress* progress, const CubeColourSink& sink) {
   const Grid grid = file.grid();
   ColourPassReport report;
   LapTimer timer;
@@ -625,7 +623,6 @@ ColourPassReport colour_cubes(const DagFile& file, const Scene& scene,
   if (painted.density.area != 0)
     report.texels_per_cube = double(painted.density.texels) / double(painted.density.area) *
                              double(int64_t(1) << (grid.levels - report.level));
-  if (on_level) on_level(report.level);
   std::vector<PaintedBin> bins;
   if (painted.bins) bins = painted.bins->finish();
   ColourPass pass(file, painted, report.level, max_triangles, workspace, executor, progress, sink);

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 
 #include "builder/workspace/workspace.h"
 #include "io/dag/colours/cube_colour.h"
@@ -41,14 +42,14 @@ struct ColourPassReport {
   double split_seconds = 0, walk_seconds = 0;
 };
 
-// Passes the colours of all covered cubes of the union of `file` to `sink`. `on_level` is called
-// with K before the first of them. `scene` must be read with `colours` and `paint`. Error
-// (kBadInput) if the scene is not the one of the file: it ends elsewhere, or covered cubes have no
-// triangle; then the sequence is incomplete, and the error has their number.
+using CubeColourSink = std::function<void(std::span<const CubeColour>)>;
+
+// Passes the colours of all covered cubes of the union of `file` to `sink`. `scene` must be read
+// with `colours` and `paint`. Error (kBadInput) if the scene is not the one of the file: it ends
+// elsewhere, or covered cubes have no triangle; then the sequence is incomplete, and the error has
+// their number.
 ColourPassReport colour_cubes(const DagFile& file, const Scene& scene,
                               const ColourPassConfig& config, Workspace* workspace,
-                              Executor* executor, Progress* progress,
-                              const std::function<void(int level)>& on_level,
-                              const CubeColourSink& sink);
+                              Executor* executor, Progress* progress, const CubeColourSink& sink);
 
 }  // namespace svdag

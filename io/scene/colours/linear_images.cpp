@@ -21,9 +21,13 @@ std::shared_ptr<const LinearImage> LinearImages::image(const std::string& name, 
                                                   threshold, std::move(held));
   } catch (const Error& error) {
     if (error.code() != ExitCode::kBadInput) throw;
-    if (std::ranges::find(notes_, error.what()) == notes_.end()) notes_.push_back(error.what());
+    note(error.what());
   }
   return known->second;
+}
+
+void LinearImages::note(const std::string& text) {
+  if (std::ranges::find(notes_, text) == notes_.end()) notes_.push_back(text);
 }
 
 }  // namespace svdag

@@ -26,8 +26,10 @@ class LinearImages {
                                            const Read& read);
 
   MemoryBudget* budget() const { return budget_; }
-  // "PATH: what is wrong", of each image that cannot be read.
+  // "PATH: what is wrong", of each image that cannot be read and each note.
   const std::vector<std::string>& notes() const { return notes_; }
+  // Adds one, once.
+  void note(const std::string& text);
 
  private:
   MemoryBudget* budget_;

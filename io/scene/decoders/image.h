@@ -81,6 +81,8 @@ class ImageMeans {
   std::optional<ImageMean> mean_of_file(const std::string& path);
 
   MemoryBudget* budget() const { return budget_; }
+  // Number of images so far.
+  size_t size() const { return means_.size(); }
   // "PATH: what is wrong", of each image without a mean and each file that was left out.
   const std::vector<std::string>& notes() const { return notes_; }
   // Adds one, once.

@@ -11,16 +11,6 @@
 namespace svdag {
 namespace {
 
-// Counts what it gets.
-struct CountedColours : ColourOutput {
-  explicit CountedColours(std::string* log) : log_(*log) {}
-  void add(std::span<const CubeColour> entries) override { entries_ += entries.size(); }
-  void finish() override { log_ += std::to_string(entries_) + " entries"; }
-
-  std::string& log_;
-  size_t entries_ = 0;
-};
-
 class ColourFile : public testing::Test {
  protected:
   ColourFile() {
@@ -43,9 +33,11 @@ class ColourFile : public testing::Test {
     try {
       colour_file(
           config_,
-          [&](const DagFile&, int level, const ColourFileConfig&, Workspace*) {
-            log += std::to_string(level) + ": ";
-            return std::make_unique<CountedColours>(&log);
+          [&](const DagFile& file, int level, const CubeColourSource& source, const WorkRoom&) {
+            EXPECT_EQ(file.grid().levels, 5);
+            size_t entries = 0;
+            for (auto next = source(); !next.empty(); next = source()) entries += next.size();
+            log = std::to_string(level) + ": " + std::to_string(entries) + " entries";
           },
           &executor, &progress);
     } catch (const Error& error) {

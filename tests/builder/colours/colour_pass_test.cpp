@@ -74,7 +74,7 @@ class ColourPass : public testing::Test {
     Colours colours;
     size_t next = 0;
     report_ = colour_cubes(
-        file, scene, {level}, &workspace, &executor, &progress, {},
+        file, scene, {level}, &workspace, &executor, &progress,
         [&](std::span<const CubeColour> entries) {
           for (const CubeColour& e : entries) {
             const int up = 3 * (level - e.level);
@@ -357,7 +357,7 @@ TEST_F(ColourPass, AForeignSceneIsRefusedWithTheNumberOfCubes) {
     SequentialExecutor executor;
     Progress progress;
     try {
-      colour_cubes(file, scene, {4}, &workspace, &executor, &progress, {}, [](const auto&) {});
+      colour_cubes(file, scene, {4}, &workspace, &executor, &progress, [](const auto&) {});
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ExitCode::kBadInput);
       return error.what();

@@ -47,7 +47,7 @@ class GoldenColours : public testing::Test {
     SequentialExecutor executor;
     Progress progress;
     report_ =
-        colour_cubes(file, scene, {levels_}, &workspace, &executor, &progress, {},
+        colour_cubes(file, scene, {levels_}, &workspace, &executor, &progress,
                      [&](std::span<const CubeColour> entries) {
                        for (const CubeColour& e : entries)
                          colours_[{e.level, e.morton}] = {
