@@ -62,6 +62,10 @@ uint16_t light16(double light) noexcept {
   return light > 0 ? uint16_t(std::min(light, 1.0) * kWhite16 + 0.5) : uint16_t(0);
 }
 
+uint16_t light16_of_srgb(double value) noexcept {
+  return value > 0 ? light16(light_of(255 * std::min(value, 1.0))) : uint16_t(0);
+}
+
 uint16_t light16_of_code(uint8_t code) noexcept {
   static const std::array<uint16_t, 256> kLight = [] {
     std::array<uint16_t, 256> light;

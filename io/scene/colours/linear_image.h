@@ -22,6 +22,8 @@ constexpr uint16_t kWhite16 = 65535;  // linear light of 1
 
 // The nearest 16 bits of light of 0 .. 1; what is outside is clamped, NaN is 0.
 uint16_t light16(double light) noexcept;
+// Of a value of sRGB of 0 .. 1, clamped as well.
+uint16_t light16_of_srgb(double value) noexcept;
 // Of a code of sRGB.
 uint16_t light16_of_code(uint8_t code) noexcept;
 

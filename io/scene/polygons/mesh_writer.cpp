@@ -101,11 +101,9 @@ void MeshWriter::end_mesh() {
   draw_recorded();
   positions_.reset();
   codes_stream_ = OwnedStream();
-  if (!colours_.empty()) {
-    out_.paint(nullptr);
-    colours_.clear();
-    colour_memory_.release();
-  }
+  out_.paint(nullptr);
+  colours_ = {};
+  colour_memory_.release();
   points_ = nullptr;
   size_ = 0;
   is_placed_ = joined_ = is_counted_ = false;
@@ -128,10 +126,14 @@ void MeshWriter::begin_coloured(Precision precision, uint64_t max_count) {
   in_memory_ = options_;
   in_memory_.spill = nullptr;
   positions_.emplace(in_memory_, precision, max_count);
-  colour_memory_ =
-      options_.budget->reserve(max_count * sizeof(VertexColour), "colours of vertices");
-  colours_.reserve(size_t(max_count));
+  colour_memory_ = options_.budget->reserve(0, "colours of vertices");
   out_.paint(&by_vertices_);
+}
+
+void MeshWriter::grow_colours() {
+  const size_t room = std::max<size_t>(1024, 2 * colours_.size());
+  colour_memory_.resize(room * sizeof(VertexColour), "colours of vertices");
+  colours_.reserve(room);
 }
 
 bool MeshWriter::place(const Affine& to_world, double step) {

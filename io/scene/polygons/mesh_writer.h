@@ -85,6 +85,7 @@ class MeshWriter {
   void begin_coloured(Precision precision, uint64_t max_count);
   void vertex(const Point& p, const VertexColour& colour) {
     vertex(p);
+    if (colours_.size() == colours_.capacity()) grow_colours();
     colours_.push_back(colour);
   }
 
@@ -146,6 +147,7 @@ class MeshWriter {
     return options_.spill == nullptr || bytes <= options_.spill->share;
   }
   void end_mesh();
+  void grow_colours();
   void start_recording();
   void record(uint64_t i) {
     if (!recording_) start_recording();

@@ -6,7 +6,6 @@
 #include <array>
 #include <optional>
 
-#include "io/colour.h"
 #include "io/scene/readers/ply_faces.h"
 #include "io/scene/readers/ply_values.h"
 
@@ -111,7 +110,7 @@ class PlyBody {
   // The linear light of a value of sRGB: a number of 0 .. 1, or a whole number of the type's range.
   static uint16_t light_of_value(double value, PlyType type) {
     const double most = !is_integer(type) ? 1 : size_of(type) == 1 ? 255 : 65535;
-    return light16(light_of(255 * std::clamp(value / most, 0.0, 1.0)));
+    return light16_of_srgb(value / most);
   }
 
   void read_coloured(Values& values, const PlyElement& element,

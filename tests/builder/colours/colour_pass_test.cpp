@@ -131,7 +131,7 @@ class ColourPass : public testing::Test {
     for (const LatticePoint& cube : covered(file, level)) {
       const int side = Cube{level, cube}.side_log2(file.grid().levels);
       const LatticePoint corner = Cube{level, cube}.corner(file.grid().levels);
-      unsigned __int128 sum[2][4] = {};
+      unsigned __int128 sum[3][4] = {};  // by area, by opacity, of all
       Stored stored{false, true, {}};
       for (const auto& [t, paint] : triangles) {
         if (!judge->touches(t.triangle(), side, cube)) continue;
@@ -145,11 +145,11 @@ class ColourPass : public testing::Test {
         for (size_t a = 0; a < 4; ++a) {
           sum[0][a] += (unsigned __int128)(share.area) * (a == 3 ? 1 : share.colour[a]);
           sum[1][a] += (unsigned __int128)(nearest.area) * (a == 3 ? 1 : nearest.colour[a]);
+          sum[2][a] += a == 3 ? 1 : nearest.colour[a];
         }
       }
       if (stored.has_colour && !stored.is_constant) {
-        const auto& s = sum[0][3] != 0 ? sum[0] : sum[1];
-        EXPECT_TRUE(s[3] != 0);
+        const auto& s = sum[0][3] != 0 ? sum[0] : sum[1][3] != 0 ? sum[1] : sum[2];
         for (size_t a = 0; a < 3; ++a) stored.linear[a] = uint16_t((s[a] + s[3] / 2) / s[3]);
       }
       if (!stored.has_colour) stored.is_constant = false;
@@ -169,7 +169,8 @@ class ColourPass : public testing::Test {
 
 // Textured charts that meet at seams, duplicates, slivers, segments, colours of corners, and
 // triangles of one colour; `order` shuffles the triangles and their corners.
-std::string random_scene(uint64_t seed, size_t count, uint64_t order = 0) {
+// `is_masked`: with textures that are cut out.
+std::string random_scene(uint64_t seed, size_t count, uint64_t order = 0, bool is_masked = false) {
   std::mt19937_64 random(seed), shuffling(order);
   const auto unit = [&] { return float(random() >> 40) * 0x1p-24F; };
   PaintedGlb glb;
@@ -214,8 +215,9 @@ std::string random_scene(uint64_t seed, size_t count, uint64_t order = 0) {
       }
     }
     const bool has_texture = kind == 0 || kind == 1, has_colours = kind >= 1 && kind < 4;
-    glb.add(glb.material({0.25 * kind, 0.8, 0.3}, has_texture ? texture : -1), triangles,
-            has_colours);
+    nlohmann::json material = glb.material({0.25 * kind, 0.8, 0.3}, has_texture ? texture : -1);
+    if (is_masked && has_texture) material["alphaMode"] = "MASK";
+    glb.add(material, triangles, has_colours);
   }
   return glb.bytes();
 }
@@ -234,6 +236,17 @@ TEST_F(ColourPass, IsTheReferenceWhateverTheThreadsMemoryAndOrder) {
     }
     const std::string shuffled = write("shuffled.glb", random_scene(seed, 12, seed));
     EXPECT_EQ(pass(file, shuffled, levels), reference(file, path, levels));
+  }
+}
+
+TEST_F(ColourPass, IsTheReferenceWithCutOuts) {
+  for (uint64_t seed = 21; seed <= 28; ++seed) {
+    SCOPED_TRACE(seed);
+    const std::string path = write("scene.glb", random_scene(seed, 12, 0, true));
+    const DagFile file = bake_scene(path, 5);
+    for (const int level : {3, 5}) EXPECT_EQ(pass(file, path, level), reference(file, path, level));
+    const std::string shuffled = write("shuffled.glb", random_scene(seed, 12, seed, true));
+    EXPECT_EQ(pass(file, shuffled, 5, 2), reference(file, path, 5));
   }
 }
 
