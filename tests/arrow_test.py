@@ -15,11 +15,11 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 STREAMING = ["streaming", "streaming/file", "streaming/memory", "streaming/process", "streaming/spill",
              "streaming/sort"]
-SCENE = ["io/scene/cutouts", "io/scene/mesh", "io/scene/polygons", "io/scene/decoders", "io/scene/readers", "io/scene/gltf", "io/scene"]
+SCENE = ["io/scene/cutouts", "io/scene/colours", "io/scene/mesh", "io/scene/polygons", "io/scene/decoders", "io/scene/readers", "io/scene/gltf", "io/scene"]
 FORMATS = ["io/formats", "io/formats/dags", "io/formats/voxels", "io/formats/vdb"]
 PHASES = ["builder/octree", "builder/overlap", "builder/overlap/kernels", "builder/winding", "builder/workspace", "builder/reduce",
           "builder/descend", "builder/split", "builder/run", "builder/merge"]
-DAG = ["io/dag", "io/dag/layers", "io/dag/compact", "io/dag/pack", "io/dag/graph"]
+DAG = ["io/dag", "io/dag/colours", "io/dag/layers", "io/dag/compact", "io/dag/pack", "io/dag/graph"]
 BAKE = STREAMING + ["io", *DAG] + SCENE + PHASES + ["builder/cache", "builder"]
 VERIFY = ["verify/integrity", "verify/judge", "verify/sample", "verify/compare", "verify/view", "verify/report"]
 TRACE = ["verify/trace/kernel", "verify/trace", "verify/trace/judge", "verify/trace/program"]
@@ -34,10 +34,11 @@ ALLOWED = {
     "io/help": STREAMING + ["io", *DAG, "io/scene"],
     "io/scene/decoders": STREAMING + ["io"],
     "io/scene/cutouts": STREAMING + ["io", "io/scene/decoders"],
-    "io/scene/mesh": STREAMING + ["io", "io/scene/cutouts"],
-    "io/scene/polygons": STREAMING + ["io", "io/scene/cutouts", "io/scene/mesh"],
-    "io/scene/readers": STREAMING + ["io", "io/scene/mesh", "io/scene/polygons", "io/scene/decoders"],
-    "io/scene/gltf": STREAMING + ["io", "io/scene/cutouts", "io/scene/mesh", "io/scene/polygons", "io/scene/decoders", "io/scene/readers"],
+    "io/scene/colours": STREAMING + ["io", "io/scene/cutouts", "io/scene/decoders"],
+    "io/scene/mesh": STREAMING + ["io", "io/scene/cutouts", "io/scene/colours"],
+    "io/scene/polygons": STREAMING + ["io", "io/scene/cutouts", "io/scene/colours", "io/scene/mesh"],
+    "io/scene/readers": STREAMING + ["io", "io/scene/colours", "io/scene/mesh", "io/scene/polygons", "io/scene/decoders"],
+    "io/scene/gltf": STREAMING + ["io", "io/scene/cutouts", "io/scene/colours", "io/scene/mesh", "io/scene/polygons", "io/scene/decoders", "io/scene/readers"],
     "io/scene": STREAMING + ["io", *DAG] + SCENE,
     **{room: STREAMING + ["io", *DAG] for room in DAG},
     "io/formats": STREAMING + ["io", *DAG],
@@ -54,6 +55,8 @@ ALLOWED = {
                                     "builder/winding", "builder/reduce"],
     "builder/split": STREAMING + ["io", *DAG, "io/scene/cutouts", "io/scene", "builder/octree", "builder/overlap", "builder/overlap/kernels",
                                   "builder/winding", "builder/workspace"],
+    "builder/colours": STREAMING + ["io", *DAG] + SCENE + ["builder/octree", "builder/overlap", "builder/overlap/kernels",
+                                                           "builder/workspace"],
     "builder/run": STREAMING + ["io", *DAG, "builder/octree"],
     "builder/merge": STREAMING + ["io", *DAG, "builder/octree", "builder/workspace", "builder/reduce",
                                   "builder/run"],

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "io/scene/decoders/gzip.h"
 #include "io/scene/scene_formats.h"
@@ -50,15 +51,18 @@ class FiniteFilter {
     if (!config_.skip_invalid) refuse(batch, batch.first + size_t(bad - batch.triangles.begin()));
     kept_.clear();
     texture_.clear();
+    corner_colours_.clear();
     for (size_t i = 0; i < batch.triangles.size(); ++i) {
       if (!finite(batch.triangles[i])) continue;
       kept_.push_back(batch.triangles[i]);
-      if (batch.cut != nullptr) texture_.push_back(batch.texture[i]);
+      if (!batch.texture.empty()) texture_.push_back(batch.texture[i]);
+      if (!batch.corner_colours.empty()) corner_colours_.push_back(batch.corner_colours[i]);
     }
     counts_->invalid += batch.triangles.size() - kept_.size();
     TriangleBatch kept = batch;
     kept.triangles = kept_;
     kept.texture = texture_;
+    kept.corner_colours = corner_colours_;
     pass(kept);
   }
 
@@ -89,6 +93,7 @@ class FiniteFilter {
   SceneCounts* counts_;
   std::vector<Triangle> kept_;
   std::vector<TextureCorners> texture_;
+  std::vector<CornerColours> corner_colours_;
 };
 
 // A sink that passes triangles on in the world, the outside of a mesh still outside.
@@ -108,22 +113,31 @@ class ToWorld {
     }
     TriangleBatch placed = batch;
     placed.triangles = placed_;
-    if (mirror_ && batch.cut != nullptr) {
-      texture_.assign(batch.texture.begin(), batch.texture.end());
-      for (TextureCorners& corners : texture_) std::swap(corners[1], corners[2]);
-      placed.texture = texture_;
+    if (mirror_) {
+      placed.texture = mirrored(batch.texture, &texture_);
+      placed.corner_colours = mirrored(batch.corner_colours, &corner_colours_);
     }
     placed.quantisation *= stretch_;
     sink_(placed);
   }
 
  private:
+  // The corners of triangles of which two change places, in *swapped.
+  template <class Corners>
+  static std::span<const Corners> mirrored(std::span<const Corners> all,
+                                           std::vector<Corners>* swapped) {
+    swapped->assign(all.begin(), all.end());
+    for (Corners& corners : *swapped) std::swap(corners[1], corners[2]);
+    return *swapped;
+  }
+
   Affine to_world_;
   bool mirror_;
   double stretch_;
   const TriangleSink& sink_;
   std::vector<Triangle> placed_;
   std::vector<TextureCorners> texture_;
+  std::vector<CornerColours> corner_colours_;
 };
 
 // Appends "--include 'sky*'" for patterns that matched nothing; if not `allowed`, an Error.
@@ -148,7 +162,8 @@ Scene::Scene(SceneConfig config, MemoryBudget* budget, const SpillSpace* spill)
       budget_(budget),
       spill_(spill),
       images_(budget, config_.sandbox),
-      alpha_(budget, config_.sandbox) {}
+      alpha_(budget, config_.sandbox),
+      paints_(budget, config_.sandbox) {}
 
 const File& Scene::content_of(const File& packed) const {
   if (!is_gzip(packed)) return packed;
@@ -190,16 +205,20 @@ LeftOut Scene::read_pose(const PoseTime* time, std::string_view frame, const Nam
     double unit = 0;
     options.unit_metres = &unit;
     options.alpha = config_.cut_outs ? &alpha_ : nullptr;
+    options.paints = config_.paint ? &paints_ : nullptr;
     if (time != nullptr && detect_format(file).read != read_gltf)
       fail_usage(path + (frame.empty() ? ": --time" : ": --frames") +
                  ": svdag follows only animations of glTF");
     if (config_.only) options.box_alone = nullptr;
+    const size_t means = images_.size();
     if (to_world == Affine()) {
       left_out += read_scene_file(detect_format(file), file, options, filtered);
     } else {
       options.box_alone = nullptr;  // it would hold coordinates of the file, not of the world
       left_out += read_scene_file(detect_format(file), file, options, ToWorld(to_world, filtered));
     }
+    if (config_.paint && images_.size() > means)
+      paints_.note(path + ": textures count with their mean: their coordinates are not read");
     if (unit != 0 && std::ranges::find(counts->units, unit) == counts->units.end())
       counts->units.push_back(unit);
   }
@@ -226,6 +245,7 @@ SceneCounts Scene::read(const TriangleSink& sink, MeshBox* box_alone) const {
   append_unmatched("--include", names.include, use.include, use, allowed, &counts.unmatched);
   append_unmatched("--exclude", names.exclude, use.exclude, use, allowed, &counts.unmatched);
   counts.unread_images = images_.notes();
+  std::ranges::copy(paints_.notes(), std::back_inserter(counts.unread_images));
   return counts;
 }
 

@@ -9,6 +9,7 @@
 
 #include "io/affine.h"
 #include "io/dag/format.h"
+#include "io/scene/colours/linear_images.h"
 #include "io/scene/cutouts/alpha_images.h"
 #include "io/scene/decoders/image.h"
 #include "io/scene/frame_range.h"
@@ -38,6 +39,7 @@ struct SceneConfig {
   std::string animation = "all";    // --animation, as in PoseTime
   bool cut_outs = true;             // what is transparent of materials is cut out
   bool colours = false;             // of materials are read, and the files that hold them
+  bool paint = false;               // with `colours`: those of points, too
   // For judges: if given, only the triangles of the part of this kind and name.
   std::optional<std::pair<PartKind, std::string>> only = {};
 
@@ -99,6 +101,7 @@ class Scene {
   mutable std::map<std::string, File> unpacked_;  // by path
   mutable ImageMeans images_;
   mutable AlphaImages alpha_;
+  mutable LinearImages paints_;
 };
 
 }  // namespace svdag

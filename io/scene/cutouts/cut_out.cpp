@@ -15,8 +15,8 @@ OpacityMap::Rectangle cells_of(const CutOut& cut, const TextureBox& box) noexcep
 }
 
 double texel(const CutOut& cut, int64_t i, int64_t j) noexcept {
-  return double(cut.image->at(wrapped_texel(i, cut.image->width(), cut.wrap_u),
-                              wrapped_texel(j, cut.image->height(), cut.wrap_v)));
+  return double(cut.image->at(wrapped(i, cut.image->width(), cut.wrap_u),
+                              wrapped(j, cut.image->height(), cut.wrap_v)));
 }
 
 // The part of the polygon with sign * (coordinate - limit) >= 0.

@@ -5,22 +5,6 @@
 #include <cstring>
 
 namespace svdag {
-namespace {
-
-// a / b, rounded down, for b > 0.
-int64_t floor_div(int64_t a, int64_t b) noexcept {
-  return a / b - (a % b < 0 ? 1 : 0);
-}
-
-}  // namespace
-
-int64_t wrapped_texel(int64_t i, int64_t size, Wrap wrap) noexcept {
-  if (i >= 0 && i < size) return i;
-  if (wrap == Wrap::kClamp) return std::clamp<int64_t>(i, 0, size - 1);
-  const int64_t turn = floor_div(i, size), at = i - turn * size;
-  return wrap == Wrap::kMirror && turn % 2 != 0 ? size - 1 - at : at;
-}
-
 OpacityMap::OpacityMap(const AlphaImage& image, Wrap wrap_u, Wrap wrap_v, bool nearest,
                        double threshold)
     : u_{image.width(), wrap_u},
@@ -35,11 +19,11 @@ OpacityMap::OpacityMap(const AlphaImage& image, Wrap wrap_u, Wrap wrap_v, bool n
   Level level = resized(u_.size + 1, v_.size + 1);
   const int64_t next = nearest ? 0 : 1;
   for (int64_t y = 0; y < level.rows; ++y) {
-    const int64_t row = wrapped_texel(y - 1, v_.size, wrap_v);
-    const int64_t row_below = wrapped_texel(y - 1 + next, v_.size, wrap_v);
+    const int64_t row = wrapped(y - 1, v_.size, wrap_v);
+    const int64_t row_below = wrapped(y - 1 + next, v_.size, wrap_v);
     for (int64_t x = 0; x < level.columns; ++x) {
-      const int64_t column = wrapped_texel(x - 1, u_.size, wrap_u);
-      const int64_t next_column = wrapped_texel(x - 1 + next, u_.size, wrap_u);
+      const int64_t column = wrapped(x - 1, u_.size, wrap_u);
+      const int64_t next_column = wrapped(x - 1 + next, u_.size, wrap_u);
       const uint8_t alpha = image.at(column, row);
       const auto [least, largest] =
           std::minmax({alpha, image.at(next_column, row), image.at(column, row_below),

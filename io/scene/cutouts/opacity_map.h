@@ -13,14 +13,11 @@
 #include <vector>
 
 #include "io/scene/cutouts/alpha_image.h"
+#include "io/scene/cutouts/wrap.h"
 
 namespace svdag {
 
-enum class Wrap : uint8_t { kRepeat, kMirror, kClamp };
 enum class Opacity : uint8_t { kTransparent, kOpaque, kMixed };
-
-// Texel i of an image of `size` texels, or the one that it is wrapped to.
-int64_t wrapped_texel(int64_t i, int64_t size, Wrap wrap) noexcept;
 
 // The largest integer that is not greater, for |x| < 2^62.
 inline int64_t floor_of(double x) noexcept {

@@ -149,28 +149,55 @@ ImageMean mean_of_image(const ImageSource& source, MemoryBudget* budget) {
   return mean;
 }
 
-AlphaTexels alpha_of_image(const ImageSource& source, MemoryBudget* budget) {
-  const CheckedImage image = check_image(source, budget);
-  AlphaTexels texels{image.size.width, image.size.height, {}};
-  const uint64_t count = image.size.texels();
-  texels.alpha.reserve(size_t(count));
+namespace {
+
+// `convert` writes kBytes bytes for a texel of `channels` bytes.
+template <size_t kBytes, class Convert>
+std::vector<uint8_t> decoded_bytes(const ImageSource& source, const CheckedImage& image,
+                                   const Convert& convert) {
+  const uint64_t count = kBytes * image.size.texels();
+  std::vector<uint8_t> bytes;
+  bytes.reserve(size_t(count));
   run_decoder(
       image.limits, source.path, source.sandbox,
       [&](DecoderOutput& out) {
         const Texels decoded = decode(source);
-        const size_t channels = decoded.channels;
-        std::vector<uint8_t> alpha(size_t(decoded.size.texels()), 255);
-        for (size_t i = 0; channels % 2 == 0 && i < alpha.size(); ++i)
-          alpha[i] = decoded.all()[(i + 1) * channels - 1];
-        out.send(0, std::span<const uint8_t>(alpha));
+        std::vector<uint8_t> converted(kBytes * size_t(decoded.size.texels()));
+        const stbi_uc* texel = decoded.all().data();
+        for (size_t i = 0; i < converted.size(); i += kBytes, texel += decoded.channels)
+          convert(texel, decoded.channels, &converted[i]);
+        out.send(0, std::span<const uint8_t>(converted));
       },
       [&](const DecoderMessage& message) {
         const auto part = message.records<uint8_t>();
-        if (part.size() > count - texels.alpha.size()) message.fail();
-        texels.alpha.insert(texels.alpha.end(), part.begin(), part.end());
+        if (part.size() > count - bytes.size()) message.fail();
+        bytes.insert(bytes.end(), part.begin(), part.end());
       });
-  if (texels.alpha.size() != count) fail_input(source.path, "its decoder sent too little");
-  return texels;
+  if (bytes.size() != count) fail_input(source.path, "its decoder sent too little");
+  return bytes;
+}
+
+uint8_t alpha_of(const stbi_uc* texel, size_t channels) {
+  return channels % 2 == 0 ? texel[channels - 1] : uint8_t(255);
+}
+
+}  // namespace
+
+AlphaTexels alpha_of_image(const ImageSource& source, MemoryBudget* budget) {
+  const CheckedImage image = check_image(source, budget);
+  return {image.size.width, image.size.height,
+          decoded_bytes<1>(source, image, [](const stbi_uc* texel, size_t channels, uint8_t* out) {
+            out[0] = alpha_of(texel, channels);
+          })};
+}
+
+ColourTexels colours_of_image(const ImageSource& source, MemoryBudget* budget) {
+  const CheckedImage image = check_image(source, budget);
+  return {image.size.width, image.size.height,
+          decoded_bytes<4>(source, image, [](const stbi_uc* texel, size_t channels, uint8_t* out) {
+            for (size_t c = 0; c < 3; ++c) out[c] = texel[channels < 3 ? 0 : c];
+            out[3] = alpha_of(texel, channels);
+          })};
 }
 
 std::optional<ImageMean> ImageMeans::mean(const std::string& name, const Read& read) {

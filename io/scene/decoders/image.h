@@ -1,4 +1,5 @@
-// The mean colour, or the alpha, of a PNG or JPEG image. Only image.cpp uses the stb_image library.
+// The texels of a PNG or JPEG image, their alpha or their mean colour. Only image.cpp uses the
+// stb_image library.
 //
 // The image is decoded in a limited child process: first its head, then, in memory that depends
 // only on its size, its texels. So a smaller budget is an Error or makes no difference. Rejected:
@@ -55,6 +56,15 @@ struct AlphaTexels {
 // Errors as above.
 AlphaTexels alpha_of_image(const ImageSource& source, MemoryBudget* budget);
 
+// The texels, row by row from the top: red, green and blue in sRGB, and alpha (255 in an image
+// without).
+struct ColourTexels {
+  int width = 0, height = 0;
+  std::vector<uint8_t> rgba;
+};
+// Errors as above. The caller reserves the texels, 4 bytes each.
+ColourTexels colours_of_image(const ImageSource& source, MemoryBudget* budget);
+
 // The mean colours of the images that materials name. Each image is read once, for all passes over
 // a scene.
 class ImageMeans {
@@ -71,6 +81,8 @@ class ImageMeans {
   std::optional<ImageMean> mean_of_file(const std::string& path);
 
   MemoryBudget* budget() const { return budget_; }
+  // Number of images so far.
+  size_t size() const { return means_.size(); }
   // "PATH: what is wrong", of each image without a mean and each file that was left out.
   const std::vector<std::string>& notes() const { return notes_; }
   // Adds one, once.

@@ -23,6 +23,7 @@
 #include "io/scene/gltf/gltf_images.h"
 #include "io/scene/gltf/gltf_kept.h"
 #include "io/scene/gltf/gltf_nodes.h"
+#include "io/scene/gltf/gltf_paint.h"
 #include "io/scene/gltf/gltf_pose.h"
 #include "io/scene/gltf/tile.h"
 #include "io/scene/polygons/mesh_writer.h"
@@ -100,13 +101,14 @@ class GltfReader {
       if (material && cut == nullptr && is_transparent(*material))
         left_out_.add(Omission::kCutOuts);
       if (cut != nullptr && cut->cut.is_opaque()) cut = nullptr;
-      if ((options_.images != nullptr || cut != nullptr) && attributes.has("COLOR_0"))
+      const GltfPaint* const paint = paint_of(primitive, material, cut);
+      if (paint == nullptr && (options_.images != nullptr || cut != nullptr) &&
+          attributes.has("COLOR_0"))
         left_out_.add(Omission::kVertexColours);
-      const bool is_coloured = options_.images != nullptr && material;
-      out_.material(name_of_material, is_coloured ? colour_of(*material) : std::nullopt);
+      out_.material(name_of_material, colour_of(primitive, material));
       InstanceStream instances(node, world, &buffers_);
-      if (cut != nullptr) {
-        draw_cut(*cut, node, primitive, mode, world, &instances);
+      if (cut != nullptr || paint != nullptr) {
+        draw_textured(cut, paint, node, primitive, mode, world, &instances);
       } else if (pose_.moves(node, primitive) && !draco_.holds(primitive)) {
         draw_posed(node, primitive, mode, world, &instances);
       } else if (const KeptPrimitive* kept = kept_.find(value)) {
@@ -134,6 +136,39 @@ class GltfReader {
     if (found != cuts_.end()) return &found->second;
     return &cuts_.emplace(index, cut_out_of(document_, *material, &buffers_, options_.alpha))
                 .first->second;
+  }
+
+  // What colours the points of the primitive; null: it has one colour, or these are not wanted.
+  const GltfPaint* paint_of(const JsonObject& primitive, const std::optional<JsonObject>& material,
+                            const GltfCutOut* cut) {
+    if (options_.paints == nullptr || draco_.holds(primitive)) return nullptr;
+    const bool has_colours = primitive.object("attributes").has("COLOR_0");
+    if (!material) return has_colours ? &white_ : nullptr;
+    const uint64_t index = primitive.whole_number("material");
+    auto found = paints_.find(index);
+    if (found == paints_.end())
+      found = paints_
+                  .emplace(index, svdag::paint_of(document_, *material,
+                                                  cut != nullptr ? cut->cut.threshold : 0,
+                                                  &buffers_, options_.paints))
+                  .first;
+    const GltfPaint& textured = found->second;
+    if (has_texture_points(textured.use, primitive)) return &textured;
+    if (!has_colours) return nullptr;
+    auto plain = plain_paints_.find(index);
+    if (plain == plain_paints_.end()) {
+      plain = plain_paints_.emplace(index, GltfPaint()).first;
+      plain->second.paint.factor = textured.paint.factor;
+    }
+    return &plain->second;
+  }
+
+  // The one colour of a primitive, if it is wanted.
+  std::optional<Colour> colour_of(const JsonObject& primitive,
+                                  const std::optional<JsonObject>& material) {
+    if (options_.images == nullptr || !material) return {};
+    const bool by_points = options_.paints != nullptr && !draco_.holds(primitive);
+    return by_points ? factor_colour(*material) : colour_of(*material);
   }
 
   static bool is_transparent(const JsonObject& material) {
@@ -232,16 +267,21 @@ class GltfReader {
          GltfPose::is_skinned(node, primitive) ? &once : instances, add_vertices, add_triangles);
   }
 
-  // Draws a primitive whose material is cut: all of its vertices are held.
-  void draw_cut(const GltfCutOut& cut, const JsonObject& node, const JsonObject& primitive,
-                uint64_t mode, const Affine& world, InstanceStream* instances) {
+  // Draws a primitive whose material is cut, or whose points have colours of their own: all of its
+  // vertices are held. `cut` or `paint` may be null.
+  void draw_textured(const GltfCutOut* cut, const GltfPaint* paint, const JsonObject& node,
+                     const JsonObject& primitive, uint64_t mode, const Affine& world,
+                     InstanceStream* instances) {
     const Accessor positions = positions_of(primitive);
     const uint64_t count = positions.count();
     const auto memory =
-        options_.budget->reserve(count * sizeof(Point), "vertices of a cut-out mesh");
-    MemoryBudget::Reservation texture_memory;
+        options_.budget->reserve(count * sizeof(Point), "vertices of a textured mesh");
+    MemoryBudget::Reservation texture_memory, colour_memory;
     const std::vector<TexturePoint> texture =
-        texture_points(cut, primitive, count, &buffers_, options_.budget, &texture_memory);
+        texture_of(cut, paint, primitive, count, &texture_memory);
+    std::vector<VertexColour> colours;
+    if (paint != nullptr)
+      colours = vertex_colours(primitive, count, &buffers_, options_.budget, &colour_memory);
     std::vector<Point> points;
     points.reserve(size_t(count));
     pose_.visit_vertices(node, primitive, positions, world,
@@ -252,10 +292,16 @@ class GltfReader {
       const Affine to_world = places->next();
       out_.begin_soup();
       out_.place(to_world, 0);
-      out_.cut_out(&cut.cut);
+      out_.cut_out(cut != nullptr ? &cut->cut : nullptr);
+      out_.paint(paint != nullptr ? &paint->paint : nullptr);
       const auto add = [&](uint64_t a, uint64_t b, uint64_t c) {
-        out_.add_cut({{to_world(points[a]), to_world(points[b]), to_world(points[c])}},
-                     {texture[a], texture[b], texture[c]});
+        const Triangle t{{to_world(points[a]), to_world(points[b]), to_world(points[c])}};
+        const TextureCorners corners =
+            texture.empty() ? TextureCorners() : TextureCorners{texture[a], texture[b], texture[c]};
+        if (paint == nullptr) return out_.add_cut(t, corners);
+        out_.add_painted(
+            t, corners,
+            colours.empty() ? kWhiteCorners : CornerColours{colours[a], colours[b], colours[c]});
       };
       if (primitive.has("indices")) {
         const Accessor indices = indices_of(primitive, mode);
@@ -268,7 +314,21 @@ class GltfReader {
         assemble(mode, count, corners, add);
       }
       out_.cut_out(nullptr);
+      out_.paint(nullptr);
     }
+  }
+
+  // In the texture of `cut` and `paint`, which is one; empty without.
+  std::vector<TexturePoint> texture_of(const GltfCutOut* cut, const GltfPaint* paint,
+                                       const JsonObject& primitive, uint64_t count,
+                                       MemoryBudget::Reservation* memory) {
+    if (cut != nullptr && has_texture_points(cut->use, primitive))
+      return texture_points(cut->use, cut->cut.image->width(), cut->cut.image->height(), primitive,
+                            count, " (--no-cutouts bakes materials whole)", &buffers_,
+                            options_.budget, memory);
+    if (paint == nullptr || !paint->paint.image) return {};
+    return texture_points(paint->use, paint->paint.image->width(), paint->paint.image->height(),
+                          primitive, count, "", &buffers_, options_.budget, memory);
   }
 
   void draw_soup(const Accessor& positions, uint64_t mode, InstanceStream* instances) {
@@ -345,7 +405,9 @@ class GltfReader {
   DracoPrimitives draco_;
   KeptPrimitives kept_;
   GltfPose pose_;
-  std::map<uint64_t, GltfCutOut> cuts_;  // by material
+  std::map<uint64_t, GltfCutOut> cuts_;                  // by material
+  std::map<uint64_t, GltfPaint> paints_, plain_paints_;  // by material; plain: without texture
+  GltfPaint white_;
   MeshWriter& out_;
   LeftOut left_out_;
 };

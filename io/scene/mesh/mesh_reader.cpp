@@ -45,6 +45,12 @@ void BatchWriter::cut_out(const CutOut* cut) {
   cut_ = cut;
 }
 
+void BatchWriter::paint(const Paint* paint) {
+  if (paint == paint_) return;
+  flush();
+  paint_ = paint;
+}
+
 void BatchWriter::quantisation(double step) {
   if (step == quantisation_) return;
   flush();
@@ -65,6 +71,7 @@ void BatchWriter::flush() {
   if (mirrored_) {
     for (size_t i = 0; i < size_; ++i) std::swap(batch_[i].v[1], batch_[i].v[2]);
     for (TextureCorners& corners : texture_) std::swap(corners[1], corners[2]);
+    for (CornerColours& corners : corner_colours_) std::swap(corners[1], corners[2]);
   }
   sink_({.mesh = mesh_,
          .material = material_,
@@ -74,8 +81,11 @@ void BatchWriter::flush() {
          .quantisation = quantisation_,
          .undeformed = undeformed_,
          .cut = cut_,
-         .texture = texture_});
+         .texture = texture_,
+         .paint = paint_,
+         .corner_colours = corner_colours_});
   texture_.clear();
+  corner_colours_.clear();
   first_ += size_;
   size_ = 0;
 }

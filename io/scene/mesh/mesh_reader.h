@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "io/colour.h"
+#include "io/scene/colours/paint.h"
 #include "io/scene/cutouts/cut_out.h"
 #include "io/scene/mesh/left_out.h"
 #include "io/scene/mesh/name_filter.h"
@@ -43,6 +44,10 @@ struct TriangleBatch {
   // its texture. Null and empty: the triangles are whole.
   const CutOut* cut = nullptr;
   std::span<const TextureCorners> texture = {};
+  // What colours the points of the triangles, with `texture` and the colours of the corners. Null
+  // and empty: they have the one colour of their material, or colours of points are not wanted.
+  const Paint* paint = nullptr;
+  std::span<const CornerColours> corner_colours = {};
 };
 
 // The name of the part of this kind that a batch belongs to.
@@ -64,6 +69,7 @@ using TriangleSink = std::function<void(const TriangleBatch&)>;
 
 class AlphaImages;
 class ImageMeans;
+class LinearImages;
 class SpillFile;
 
 // Spill space for the vertex positions of a mesh that do not fit in memory. STL needs none.
@@ -123,6 +129,8 @@ struct ReadOptions {
   double* unit_metres = nullptr;
   // Not null: what is transparent of materials is cut out. It must outlive the triangles' CutOut.
   AlphaImages* alpha = nullptr;
+  // Not null: colours of points are wanted, with `images`. It must outlive the triangles' Paint.
+  LinearImages* paints = nullptr;
 
   // Whether the object `name`, which has no material, is selected.
   bool wants(const std::string& name) const {
@@ -168,6 +176,13 @@ class BatchWriter {
     texture_.push_back(texture);
     add(t.v[0], t.v[1], t.v[2]);
   }
+  // What colours the triangles from here on, which add_painted() adds; null: nothing does. They may
+  // be cut, too.
+  void paint(const Paint* paint);
+  void add_painted(const Triangle& t, const TextureCorners& texture, const CornerColours& colours) {
+    corner_colours_.push_back(colours);
+    add_cut(t, texture);
+  }
   // Writes each corner to its place: a Triangle that is built first and then copied is read back in
   // pieces of another size than it was written in, which stalls on the store buffer.
   void add(const Point& a, const Point& b, const Point& c) {
@@ -192,7 +207,9 @@ class BatchWriter {
   bool undeformed_ = false;
   bool mirrored_ = false;
   const CutOut* cut_ = nullptr;
-  std::vector<TextureCorners> texture_;  // of batch_, if it is cut
+  const Paint* paint_ = nullptr;
+  std::vector<TextureCorners> texture_;        // of batch_, if it is cut or painted
+  std::vector<CornerColours> corner_colours_;  // of batch_, if it is painted
   std::unique_ptr<Triangle[]> batch_;
   size_t size_ = 0, room_ = kFirst;  // triangles in batch_, and its capacity
 };

@@ -101,6 +101,9 @@ void MeshWriter::end_mesh() {
   draw_recorded();
   positions_.reset();
   codes_stream_ = OwnedStream();
+  out_.paint(nullptr);
+  colours_ = {};
+  colour_memory_.release();
   points_ = nullptr;
   size_ = 0;
   is_placed_ = joined_ = is_counted_ = false;
@@ -118,6 +121,21 @@ void MeshWriter::begin(Precision precision, uint64_t max_count, const Affine* on
   positions_.emplace(options_, precision, max_count);
 }
 
+void MeshWriter::begin_coloured(Precision precision, uint64_t max_count) {
+  end_mesh();
+  in_memory_ = options_;
+  in_memory_.spill = nullptr;
+  positions_.emplace(in_memory_, precision, max_count);
+  colour_memory_ = options_.budget->reserve(0, "colours of vertices");
+  out_.paint(&by_vertices_);
+}
+
+void MeshWriter::grow_colours() {
+  const size_t room = std::max<size_t>(1024, 2 * colours_.size());
+  colour_memory_.resize(room * sizeof(VertexColour), "colours of vertices");
+  colours_.reserve(room);
+}
+
 bool MeshWriter::place(const Affine& to_world, double step) {
   draw_recorded();
   out_.mirrored(is_mirror(to_world));
@@ -129,7 +147,7 @@ bool MeshWriter::place(const Affine& to_world, double step) {
     replay();
     return false;
   }
-  if (positions_->spilled() || size_ == 0) return true;
+  if (positions_->spilled() || size_ == 0 || !colours_.empty()) return true;
   if (fits(positions_->bytes() + size_ * sizeof(Point))) {
     points_ = placed_.resize(size_, options_.budget);
     for (uint64_t i = 0; i < size_; ++i) points_[i] = to_world((*positions_)[i]);

@@ -19,6 +19,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "io/affine.h"
 #include "io/scene/mesh/mesh_reader.h"
@@ -79,6 +80,14 @@ class MeshWriter {
     ++size_;
   }
   uint64_t vertices() const { return size_; }
+  // As begin(), of vertices that are added with their colours, which those of the polygons' points
+  // follow from. They are held in memory.
+  void begin_coloured(Precision precision, uint64_t max_count);
+  void vertex(const Point& p, const VertexColour& colour) {
+    vertex(p);
+    if (colours_.size() == colours_.capacity()) grow_colours();
+    colours_.push_back(colour);
+  }
 
   // Places all vertices, which were added, in the world; `step`: of their quantisation, as stored.
   // Call it before the polygons, for every instance of the mesh. Returns false if these polygons
@@ -89,6 +98,9 @@ class MeshWriter {
 
   void triangle(uint64_t a, uint64_t b, uint64_t c) {
     if (points_ != nullptr) return out_.add(points_[a], points_[b], points_[c]);
+    if (!colours_.empty())
+      return out_.add_painted({{stored(a), stored(b), stored(c)}}, TextureCorners(),
+                              {colours_[a], colours_[b], colours_[c]});
     if (!positions_->spilled()) return out_.add(stored(a), stored(b), stored(c));
     record(a);
     record(b);
@@ -97,6 +109,7 @@ class MeshWriter {
   }
   void corner(uint64_t i) {
     if (points_ != nullptr) return triangulator_.corner(points_[i]);
+    if (!colours_.empty()) return triangulator_.corner(stored(i), colours_[i]);
     if (!positions_->spilled()) return triangulator_.corner(stored(i));
     record(i);
   }
@@ -111,6 +124,11 @@ class MeshWriter {
   // Of a soup: triangles of a material that is cut out (BatchWriter).
   void cut_out(const CutOut* cut) { out_.cut_out(cut); }
   void add_cut(const Triangle& t, const TextureCorners& texture) { out_.add_cut(t, texture); }
+  // Of a soup: what colours its points (BatchWriter).
+  void paint(const Paint* paint) { out_.paint(paint); }
+  void add_painted(const Triangle& t, const TextureCorners& texture, const CornerColours& colours) {
+    out_.add_painted(t, texture, colours);
+  }
 
   // Passes everything on.
   void finish() {
@@ -129,6 +147,7 @@ class MeshWriter {
     return options_.spill == nullptr || bytes <= options_.spill->share;
   }
   void end_mesh();
+  void grow_colours();
   void start_recording();
   void record(uint64_t i) {
     if (!recording_) start_recording();
@@ -167,7 +186,11 @@ class MeshWriter {
   Point* points_ = nullptr;  // not null: all vertices, in the world
   uint64_t size_ = 0;        // number of vertices
   Affine to_world_ = {};
-  bool is_placed_ = false;   // place() was called
+  bool is_placed_ = false;             // place() was called
+  std::vector<VertexColour> colours_;  // of the vertices, or empty
+  MemoryBudget::Reservation colour_memory_;
+  ReadOptions in_memory_ = {};  // options without space to spill, for vertices with colours
+  const Paint by_vertices_ = {};
   bool is_counted_ = false;  // the summary counts its triangles as undeformed or quantised
 
   // Of spilled positions.

@@ -57,11 +57,17 @@ void Triangulator::finish(BatchWriter& writer) {
     fan(writer);
   }
   corners_.clear();
+  colours_.clear();
+}
+
+void Triangulator::emit(size_t a, size_t b, size_t c, BatchWriter& writer) const {
+  if (colours_.empty()) return writer.add(corners_[a], corners_[b], corners_[c]);
+  writer.add_painted({{corners_[a], corners_[b], corners_[c]}}, TextureCorners(),
+                     {colours_[a], colours_[b], colours_[c]});
 }
 
 void Triangulator::fan(BatchWriter& writer) const {
-  for (size_t i = 2; i < corners_.size(); ++i)
-    writer.add(corners_[0], corners_[i - 1], corners_[i]);
+  for (size_t i = 2; i < corners_.size(); ++i) emit(0, i - 1, i, writer);
 }
 
 // Fills flat_; false if the polygon has almost no area (or is not finite).
@@ -213,7 +219,7 @@ void Triangulator::ask_again(uint32_t corner) {
 // Removes a corner from the ring as the triangle with its neighbours; returns the previous corner.
 uint32_t Triangulator::clip(uint32_t corner, BatchWriter& writer) {
   const uint32_t a = prev_[corner], c = next_[corner];
-  writer.add(corners_[a], corners_[corner], corners_[c]);
+  emit(a, corner, c, writer);
   next_[a] = c;
   prev_[c] = a;
   --left_;
@@ -256,8 +262,7 @@ void Triangulator::clip_ears(BatchWriter& writer) {
     const uint32_t c = clip_slit(next_[a], writer);
     here = next_[c];  // not c: the ears of a round shape would all share one corner
   }
-  for (uint32_t i = next_[here]; next_[i] != here; i = next_[i])
-    writer.add(corners_[here], corners_[i], corners_[next_[i]]);
+  for (uint32_t i = next_[here]; next_[i] != here; i = next_[i]) emit(here, i, next_[i], writer);
 }
 
 }  // namespace svdag

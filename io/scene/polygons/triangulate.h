@@ -47,6 +47,11 @@ class Triangulator {
     if (corners_.size() == corners_.capacity()) grow();
     corners_.push_back(p);
   }
+  // The same with the colour of the corner: of all corners of a polygon, or none.
+  void corner(const Point& p, const VertexColour& colour) {
+    corner(p);
+    colours_.push_back(colour);
+  }
   // Passes the triangles to `writer` and starts the next polygon; fewer than 3 corners give none.
   // One that takes too many steps is an Error (kBadInput); outlines take some hundreds per corner.
   void finish(BatchWriter& writer);
@@ -66,6 +71,7 @@ class Triangulator {
   uint32_t next_ear(uint32_t from);
   bool leads_inside(size_t from, size_t right, size_t left, size_t to) const;
   bool forbids(uint32_t i, size_t a, size_t b, size_t c) const;
+  void emit(size_t a, size_t b, size_t c, BatchWriter& writer) const;
   void fan(BatchWriter& writer) const;
   void make_ring();
   void count_step();
@@ -79,6 +85,7 @@ class Triangulator {
   const uint64_t steps_;
   MemoryBudget::Reservation reservation_;
   std::vector<Point> corners_;
+  std::vector<VertexColour> colours_;  // of the corners, or empty
   std::vector<glm::dvec2> flat_;       // the projection, counter-clockwise
   std::vector<uint32_t> prev_, next_;  // the ring of corners not clipped yet
   uint32_t left_ = 0;                  // their number

@@ -1,5 +1,6 @@
 // Wavefront OBJ: polygons and groups, in one pass.
 //
+// Vertices have colours if the first one has (`v x y z r g b`, in sRGB by custom).
 // A face may use the vertices that precede it, counted from 1, or backwards from -1. Texture
 // coordinates and normals are skipped; free-form curves and surfaces, lines and points
 // are counted. Unknown statements are an Error: what they define would be missing. Zero bytes may
@@ -42,6 +43,7 @@ class ObjReader {
  public:
   ObjReader(const File& file, const ReadOptions& options, MeshWriter* out)
       : options_(options),
+        file_bytes_(file.size()),
         stream_(file, 0, end_of_text(file)),
         scanner_(&stream_, {'#', true}),
         out_(*out) {
@@ -65,7 +67,7 @@ class ObjReader {
   bool read_plain_line() {
     const std::string_view text = scanner_.visible();
     const char* stop = nullptr;
-    if (text.starts_with("v ")) {
+    if (text.starts_with("v ") && options_.paints == nullptr) {
       Point p;
       stop = read_plain_vertex(text.substr(2), &p);
       if (stop != nullptr) out_.vertex(p);
@@ -118,11 +120,22 @@ class ObjReader {
     left_out_.add(is_in(kFreeForm) ? Omission::kFreeForm : Omission::kPointsOrLines);
   }
 
-  // What follows x, y, z (a weight, colours) is skipped.
+  // What follows x, y, z (a weight, colours) is skipped unless colours are wanted.
   void read_vertex() {
     Point p;
     for (int a = 0; a < 3; ++a) p[a] = scanner_.number();
-    out_.vertex(p);
+    if (options_.paints == nullptr) return out_.vertex(p);
+    std::array<double, 4> more;  // red, green and blue, after a weight if there are four
+    size_t n = 0;
+    while (n < more.size() && !scanner_.at_line_end()) more[n++] = scanner_.number();
+    if (out_.vertices() == 0) {
+      is_coloured_ = n >= 3;
+      if (is_coloured_) out_.begin_coloured(MeshWriter::Precision::kDouble, file_bytes_);
+    }
+    if (!is_coloured_) return out_.vertex(p);
+    VertexColour colour = {kWhite16, kWhite16, kWhite16};
+    for (size_t c = 0; c < 3 && n >= 3; ++c) colour[c] = light16_of_srgb(more[n - 3 + c]);
+    out_.vertex(p, colour);
   }
 
   void read_face() {
@@ -179,6 +192,7 @@ class ObjReader {
   }
 
   const ReadOptions& options_;
+  uint64_t file_bytes_;
   MtlMaterials materials_;
   ByteStream stream_;
   TextScanner scanner_;
@@ -188,6 +202,7 @@ class ObjReader {
   std::vector<std::string> groups_;
   std::string mesh_, material_;
   bool wanted_ = true;
+  bool is_coloured_ = false;  // vertices have colours
   LeftOut left_out_;
 };
 

@@ -15,8 +15,9 @@ namespace {
 template <class Values>
 class PlyBody {
  public:
-  PlyBody(const File& file, const PlyHeader& header, MeshWriter* out)
-      : file_(file), header_(header), out_(*out) {}
+  // `coloured`: the colours of vertices are wanted.
+  PlyBody(const File& file, const PlyHeader& header, bool coloured, MeshWriter* out)
+      : file_(file), header_(header), is_coloured_(coloured), out_(*out) {}
 
   void read(PlyPlace begin) {
     const auto& elements = header_.elements;
@@ -65,8 +66,12 @@ class PlyBody {
     check_count(values, element);
     // A float property holds floats; text declared as a short integer may hold any number.
     if (header_.format == PlyFormat::kAscii) single = single && all_float(element, coordinate);
-    out_.begin(single ? MeshWriter::Precision::kSingle : MeshWriter::Precision::kDouble,
-               element.count);
+    const auto precision = single ? MeshWriter::Precision::kSingle : MeshWriter::Precision::kDouble;
+    if (is_coloured_ && find_colours(element, &coordinate)) {
+      out_.begin_coloured(precision, element.count);
+      return read_coloured(values, element, coordinate);
+    }
+    out_.begin(precision, element.count);
     uint64_t row = 0;
     if constexpr (std::is_same_v<Values, PlyBinaryValues>) {
       if (const auto offset = plain_vertices(values, element))
@@ -82,6 +87,48 @@ class PlyBody {
         }
       }
       out_.vertex({read[0], read[1], read[2]});
+    }
+  }
+
+  // Makes red, green and blue the coordinates 4 to 6; false if a vertex has none.
+  static bool find_colours(const PlyElement& element, std::vector<int>* coordinate) {
+    for (const std::string before : {"", "diffuse_"}) {
+      std::vector<int> with = *coordinate;
+      int found = 0;
+      for (const char* const name : {"red", "green", "blue"}) {
+        const auto index = element.find(before + name);
+        if (!index || element.properties[*index].is_list()) break;
+        with[*index] = 4 + found++;
+      }
+      if (found < 3) continue;
+      *coordinate = with;
+      return true;
+    }
+    return false;
+  }
+
+  // The linear light of a value of sRGB: a number of 0 .. 1, or a whole number of the type's range.
+  static uint16_t light_of_value(double value, PlyType type) {
+    const double most = !is_integer(type) ? 1 : size_of(type) == 1 ? 255 : 65535;
+    return light16_of_srgb(value / most);
+  }
+
+  void read_coloured(Values& values, const PlyElement& element,
+                     const std::vector<int>& coordinate) {
+    for (uint64_t row = 0; row < element.count; ++row) {
+      std::array<double, 7> read{};
+      VertexColour colour{};
+      for (size_t i = 0; i < element.properties.size(); ++i) {
+        const PlyType type = element.properties[i].type;
+        const size_t to = size_t(coordinate[i]);
+        if (to == 3) {
+          skip_property(values, element.properties[i]);
+          continue;
+        }
+        read[to] = values.number(type);
+        if (to > 3) colour[to - 4] = light_of_value(read[to], type);
+      }
+      out_.vertex({read[0], read[1], read[2]}, colour);
     }
   }
 
@@ -127,6 +174,7 @@ class PlyBody {
 
   const File& file_;
   const PlyHeader& header_;
+  bool is_coloured_;
   MeshWriter& out_;
   std::vector<PlyPlace> places_;  // of the elements before the vertices, and of what follows those
 };
@@ -138,10 +186,11 @@ LeftOut read_ply(const File& file, const ReadOptions& options, MeshWriter* out) 
   ByteStream stream(file);
   const PlyHeader header = read_ply_header(&stream);
   const PlyPlace body{stream.offset(), header.lines + 1};
+  const bool coloured = options.paints != nullptr;
   if (header.format == PlyFormat::kAscii) {
-    PlyBody<PlyTextValues>(file, header, out).read(body);
+    PlyBody<PlyTextValues>(file, header, coloured, out).read(body);
   } else {
-    PlyBody<PlyBinaryValues>(file, header, out).read(body);
+    PlyBody<PlyBinaryValues>(file, header, coloured, out).read(body);
   }
   LeftOut left_out;
   left_out.add(Omission::kHeaderLines, header.unknown_lines);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "io/scene/cutouts/cut_triangle.h"
-#include "io/scene/gltf/gltf_cut_out.h"
+#include "io/scene/gltf/gltf_texture.h"
 
 namespace svdag {
 namespace {
@@ -162,13 +162,12 @@ TEST(CutOut, IsOpaqueIfNoTexelIsTransparent) {
 }
 
 TEST(CutOut, CoordinatesAreScaledThenRotatedThenMoved) {
-  GltfCutOut turned;  // counter-clockwise by a quarter: v points down
-  turned.cut.image = std::make_shared<AlphaImage>(4, 2, std::vector<uint8_t>(8));
+  GltfTextureUse turned;  // counter-clockwise by a quarter: v points down
   turned.scale[0] = 3;
   turned.sine = 1;
   turned.cosine = 0;
   turned.offset[0] = 0.5;
-  const TexturePoint right = turned.place(1, 0), down = turned.place(0, 1);
+  const TexturePoint right = turned.place(1, 0, 4, 2), down = turned.place(0, 1, 4, 2);
   EXPECT_EQ(right.u, 0.5 * 4);
   EXPECT_EQ(right.v, -3 * 2);
   EXPECT_EQ(down.u, 1.5 * 4);

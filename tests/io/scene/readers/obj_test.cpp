@@ -1,5 +1,7 @@
+#include "io/scene/scene.h"
 #include "streaming/file/byte_stream.h"
 #include "tests/io/scene/read_text.h"
+#include "tests/temp_folder.h"
 
 namespace svdag {
 namespace {
@@ -70,7 +72,7 @@ TEST(Obj, TrianglesAreNumberedWithinTheirGroup) {
   const NameFilter names;
   std::vector<uint64_t> firsts;
   read_meshes(read_obj, memory.file(), {&names, false, &budget},
-           [&](const TriangleBatch& batch) { firsts.push_back(batch.first); });
+              [&](const TriangleBatch& batch) { firsts.push_back(batch.first); });
   EXPECT_EQ(firsts, (std::vector<uint64_t>{0, 0}));
 }
 
@@ -83,9 +85,9 @@ TEST(Obj, IndicesThatPointNowhereAreRefusedWithTheirLine) {
 }
 
 TEST(Obj, GarbageIsRefused) {
-  for (const char* line : {"v 1 2", "v 1 2 x", "v 1 2 3x", "v 1 2 +-3", "f 1 2 x", "f 1 2 3x",
-                           "f 1/a 2 3", "f 1 2 9999999999999999999999", "f 1.5 2 3", "f 1 2 /3",
-                           "fx 1 2 3", "\x01"}) {
+  for (const char* line :
+       {"v 1 2", "v 1 2 x", "v 1 2 3x", "v 1 2 +-3", "f 1 2 x", "f 1 2 3x", "f 1/a 2 3",
+        "f 1 2 9999999999999999999999", "f 1.5 2 3", "f 1 2 /3", "fx 1 2 3", "\x01"}) {
     EXPECT_NE(refusal(read_obj, std::string(kVertices) + line + "\n").find("(line 5)"),
               std::string::npos)
         << line;
@@ -128,6 +130,25 @@ TEST(Obj, TokensMayStraddleTheWindow) {
   }
   for (size_t shift = 0; shift < 60; shift += 7)
     ASSERT_EQ(read(read_obj, std::string(shift, '\n') + text).triangles, expected);
+}
+
+// After a weight, if there is one; where none follow, white.
+TEST(Obj, ColoursOfVerticesAreReadIfWanted) {
+  const TempFolder folder;
+  SceneConfig config;
+  config.paths = {folder.write("s.obj",
+                               "v 0 0 0 1 0 0\nv 1 0 0 1 0 0.5 2\nv 1 1 0\nv 0 1 0 0 0 0\n"
+                               "f 1 2 3 4\nf 4 2 1\n")};
+  config.colours = config.paint = true;
+  MemoryBudget budget;
+  std::vector<CornerColours> colours;
+  Scene(config, &budget).stream([&](const TriangleBatch& batch) {
+    colours.insert(colours.end(), batch.corner_colours.begin(), batch.corner_colours.end());
+  });
+  const VertexColour red = {kWhite16, 0, 0}, white = {kWhite16, kWhite16, kWhite16}, black = {};
+  const VertexColour other = {0, light16_of_srgb(0.5), kWhite16};
+  EXPECT_EQ(colours, (std::vector<CornerColours>{
+                         {red, other, white}, {red, white, black}, {black, other, red}}));
 }
 
 }  // namespace

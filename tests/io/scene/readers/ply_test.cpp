@@ -1,7 +1,9 @@
 #include <cmath>
 #include <limits>
 
+#include "io/scene/scene.h"
 #include "tests/io/scene/read_text.h"
+#include "tests/temp_folder.h"
 
 namespace svdag {
 namespace {
@@ -229,6 +231,41 @@ TEST(Ply, ABudgetThatIsTooSmallIsAMemoryError) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::kMemory);
   }
+}
+
+// Colours of vertices, in sRGB, of a square and of a triangle; `type` and values of 1 and 0.5.
+CornerColours colours_of(const std::string& type, const std::string& one, const std::string& half,
+                         const std::string& prefix, size_t triangle) {
+  const TempFolder folder;
+  std::string text = "ply\nformat ascii 1.0\nelement vertex 4\n";
+  for (const char* const name : {"red", "green", "blue"})
+    text += "property " + type + " " + prefix + name + "\n";
+  text += "property uchar alpha\nproperty float x\nproperty float y\nproperty float z\n"
+          "element face 2\nproperty list uchar int vertex_indices\nend_header\n";
+  text += one + " 0 0 7 0 0 0\n" + "0 " + half + " 0 7 1 0 0\n" + "0 0 " + one + " 7 1 1 0\n" +
+          "0 0 0 7 0 1 0\n4 0 1 2 3\n3 1 2 3\n";
+  SceneConfig config;
+  config.paths = {folder.write("s.ply", text)};
+  config.colours = config.paint = true;
+  MemoryBudget budget;
+  std::vector<CornerColours> colours;
+  Scene(config, &budget).stream([&](const TriangleBatch& batch) {
+    EXPECT_NE(batch.paint, nullptr);
+    colours.insert(colours.end(), batch.corner_colours.begin(), batch.corner_colours.end());
+  });
+  EXPECT_EQ(colours.size(), 3u);
+  return colours.at(triangle);
+}
+
+TEST(Ply, ColoursOfVerticesAreReadIfWanted) {
+  const VertexColour red = {kWhite16, 0, 0}, blue = {0, 0, kWhite16}, black = {0, 0, 0};
+  const VertexColour green = {0, light16_of_code(128), 0};
+  EXPECT_EQ(colours_of("uchar", "255", "128", "", 0), (CornerColours{red, green, blue}));
+  EXPECT_EQ(colours_of("uchar", "255", "128", "", 1), (CornerColours{red, blue, black}));
+  EXPECT_EQ(colours_of("uchar", "255", "128", "diffuse_", 2), (CornerColours{green, blue, black}));
+  EXPECT_EQ(colours_of("ushort", "65535", "32896", "", 0), (CornerColours{red, green, blue}));
+  EXPECT_EQ(colours_of("double", "1", "0.50196078431372548", "", 0),
+            (CornerColours{red, green, blue}));
 }
 
 }  // namespace

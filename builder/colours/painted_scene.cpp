@@ -1,0 +1,102 @@
+#include "builder/colours/painted_scene.h"
+
+#include <algorithm>
+
+#include "builder/colours/colour_pass.h"
+
+namespace svdag {
+namespace {
+
+bool is_invisible(const CutOut& cut) {
+  return cut.image->width() == 1 && cut.image->height() == 1 &&
+         double(cut.image->at(0, 0)) < cut.threshold;
+}
+
+uint32_t paint_number(const Paint& paint, Paints* all) {
+  const auto found = std::ranges::find(*all, paint);
+  if (found != all->end()) return uint32_t(found - all->begin());
+  all->push_back(paint);
+  return uint32_t(all->size() - 1);
+}
+
+std::array<uint16_t, 3> colour_of(const TriangleBatch& batch) {
+  if (!batch.colour) return {kWhite16, kWhite16, kWhite16};
+  return {light16_of_code(batch.colour->r), light16_of_code(batch.colour->g),
+          light16_of_code(batch.colour->b)};
+}
+
+void paint_corners(const TriangleBatch& batch, size_t k, uint32_t paint, PaintedTriangle* t) {
+  const CornerColours& colours = batch.corner_colours[k];
+  const auto one = one_colour(*batch.paint, colours);
+  t->paint = one ? kOneColour : paint;
+  for (size_t i = 0; i < 3; ++i) {
+    t->corners[i].colour = one ? *one : colours[i];
+    if (batch.paint->image) t->corners[i].texture = batch.texture[k][i];
+  }
+}
+
+}  // namespace
+
+int level_for(const TexelDensity& density, int levels) {
+  if (density.area == 0 || density.texels == 0) return levels;
+  double texels = double(density.texels) / double(density.area);
+  int level = levels;
+  for (; texels < 1 && level > kMinColourLevel; --level) texels *= 2;
+  return level;
+}
+
+SceneReader::SceneReader(const Grid& grid, uint64_t max_triangles, uint64_t triangle_bytes,
+                         int bin_depth, Workspace* workspace, PaintedScene* out)
+    : grid_(grid),
+      lattice_(grid),
+      whole_(grid.closed(grid.whole())),
+      max_triangles_(max_triangles),
+      triangle_bytes_(triangle_bytes),
+      bin_depth_(bin_depth),
+      workspace_(*workspace),
+      out_(*out) {
+  out_.memory = workspace_.budget()->reserve(0, kPurpose);
+}
+
+void SceneReader::read(const TriangleBatch& batch) {
+  if (batch.cut != nullptr && is_invisible(*batch.cut)) return;
+  const std::array<uint16_t, 3> plain = colour_of(batch);
+  const uint32_t paint =
+      batch.paint != nullptr ? paint_number(*batch.paint, &out_.paints) : kOneColour;
+  for (size_t k = 0; k < batch.triangles.size(); ++k) {
+    PaintedTriangle t;
+    for (size_t i = 0; i < 3; ++i) {
+      t.corners[i].position = lattice_.snap(batch.triangles[k].v[i]);
+      t.corners[i].colour = plain;
+    }
+    if (batch.paint != nullptr) paint_corners(batch, k, paint, &t);
+    sort_corners(&t);
+    out_.density.add(t, grid_.fraction());
+    const LatticeBox box = box_of(t.triangle());
+    if (!box.meets(whole_)) continue;
+    if (out_.is_empty) out_.box = box;
+    out_.is_empty = false;
+    out_.box.add(box);
+    keep(t);
+  }
+}
+
+void SceneReader::keep(const PaintedTriangle& t) {
+  if (out_.bins) return out_.bins->add(t);
+  if (out_.triangles.size() == max_triangles_) {
+    out_.bins.emplace(grid_.levels, Cube(), bin_depth_, workspace_.scratch());
+    for (const PaintedTriangle& kept : out_.triangles) out_.bins->add(kept);
+    out_.triangles = {};
+    out_.memory.release();
+    return out_.bins->add(t);
+  }
+  if (out_.triangles.size() == out_.triangles.capacity()) {
+    const size_t room = size_t(
+        std::min<uint64_t>(max_triangles_, std::max<size_t>(1024, 2 * out_.triangles.size())));
+    out_.memory.resize(room * triangle_bytes_, kPurpose);
+    out_.triangles.reserve(room);
+  }
+  out_.triangles.push_back(t);
+}
+
+}  // namespace svdag

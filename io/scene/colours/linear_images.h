@@ -1,0 +1,41 @@
+// The textures that colour a scene, each decoded once for all passes over it.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/scene/colours/linear_image.h"
+
+namespace svdag {
+
+class LinearImages {
+ public:
+  // Returns the bytes of an image, reserved in *memory.
+  using Read = std::function<std::vector<std::byte>(MemoryBudget::Reservation* memory)>;
+
+  LinearImages(MemoryBudget* budget, bool sandbox) : budget_(budget), sandbox_(sandbox) {}
+
+  // The image `name`, which is unique to it, with the texels below `threshold` cut out; read() is
+  // called the first time. Null, and a note, for one that cannot be read: the triangles have the
+  // colour of their material without it.
+  std::shared_ptr<const LinearImage> image(const std::string& name, double threshold,
+                                           const Read& read);
+
+  MemoryBudget* budget() const { return budget_; }
+  // "PATH: what is wrong", of each image that cannot be read and each note.
+  const std::vector<std::string>& notes() const { return notes_; }
+  // Adds one, once.
+  void note(const std::string& text);
+
+ private:
+  MemoryBudget* budget_;
+  bool sandbox_;
+  std::map<std::pair<std::string, double>, std::shared_ptr<const LinearImage>> images_;
+  std::vector<std::string> notes_;
+};
+
+}  // namespace svdag
