@@ -69,7 +69,7 @@ ALLOWED = {
     "builder/farm/plan": BAKE + ["builder/bake"],
     "builder/farm/planner": BAKE + ["builder/bake", "builder/farm/plan"],
     "builder/farm/engines": BAKE + ["builder/bake", "builder/farm/plan"],
-    "builder/commands": BAKE + ["io/help", "builder/edit", "builder/farm/plan", "builder/farm/planner", "builder/farm/engines"],
+    "builder/commands": BAKE + ["io/help", "builder/colours", "builder/edit", "builder/farm/plan", "builder/farm/planner", "builder/farm/engines"],
     "builder/commands/farm": BAKE + ["io/help", "builder/farm/plan", "builder/farm/planner", "builder/farm/engines", "builder/commands"],
     "builder/commands/info": BAKE + ["io/help", "builder/farm/plan", "builder/farm/planner", "builder/commands"],
     "builder/commands/export": STREAMING + ["io", "io/help", *DAG] + FORMATS,

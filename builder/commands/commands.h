@@ -10,11 +10,13 @@
 
 #include "builder/build.h"
 #include "builder/cache/cell_cache.h"
+#include "builder/colours/colour_file.h"
 #include "builder/edit/edit.h"
 #include "builder/farm/engines/farm_engine.h"
 #include "builder/farm/engines/run_step.h"
 #include "builder/farm/planner/make_plan.h"
 #include "builder/merge/merge_runs.h"
+#include "io/dag/colours/colour_writer.h"
 #include "io/dag/graph/selection.h"
 #include "io/dag/pack/pack.h"
 #include "io/help/manual.h"
@@ -121,6 +123,14 @@ struct EditCommand {
   OutputConfig output;
 };
 
+// svdag colour FILE SCENE -o OUT.
+struct ColourCommand {
+  ColourFileConfig colours;
+  uint32_t error = ColourSettings{}.error;  // the largest, in units of 1/kColourErrorUnit step
+  size_t threads = 0;                       // 0: all processors
+  OutputConfig output;
+};
+
 // svdag convert A.svdag -o B.svdag.
 struct ConvertCommand {
   std::string file;
@@ -157,9 +167,10 @@ struct HelpCommand {
   std::string subject;  // a command or a topic; empty: the program
 };
 
-using Command = std::variant<HelpCommand, BakeCommand, DryRunCommand, BatchCommand, MergeCommand,
-                             PlanCommand, RunCommand, StepCommand, SubmitCommand, InfoCommand,
-                             QueryCommand, EditCommand, ConvertCommand, PackCommand, UnpackCommand>;
+using Command =
+    std::variant<HelpCommand, BakeCommand, DryRunCommand, BatchCommand, MergeCommand, PlanCommand,
+                 RunCommand, StepCommand, SubmitCommand, InfoCommand, QueryCommand, EditCommand,
+                 ColourCommand, ConvertCommand, PackCommand, UnpackCommand>;
 
 // Each returns the exit code and throws Error for everything that fails.
 int run(const HelpCommand& command);
@@ -174,6 +185,7 @@ int run(const SubmitCommand& command);
 int run(const InfoCommand& command);
 int run(const QueryCommand& command);
 int run(const EditCommand& command);
+int run(const ColourCommand& command);
 int run(const ConvertCommand& command);
 int run(const PackCommand& command);
 int run(const UnpackCommand& command);

@@ -1,9 +1,10 @@
-// The options of svdag edit, convert, pack and unpack.
+// The options of svdag edit, colour, convert, pack and unpack.
 #include <CLI/CLI.hpp>
 #include <memory>
 
 #include "builder/commands/options.h"
 #include "io/help/command_line.h"
+#include "io/scene/scene_formats.h"
 #include "io/units.h"
 #include "streaming/counts.h"
 #include "streaming/error.h"
@@ -40,6 +41,43 @@ void add_edit(CLI::App* program, Command* command) {
   add_examples(app, {"svdag edit city.svdag -o coarse.svdag --level 10",
                      "svdag edit city.svdag -o block.svdag --bounds=0,0,0,50,50,50",
                      "svdag edit new.svdag old.svdag -o added.svdag --difference"});
+  app->preparse_callback([=](size_t) { *config = {}; });
+  app->callback([=] { *command = *config; });
+}
+
+void add_colour(CLI::App* program, Command* command) {
+  CLI::App* app = program->add_subcommand("colour", "Add the colours of its scene to a .svdag");
+  auto config = std::make_shared<ColourCommand>();
+  ColourFileConfig* const colours = &config->colours;
+  takes_files(app->add_option("FILE", colours->file, "The .svdag to colour"), {".svdag"})
+      ->required();
+  takes_files(app->add_option("SCENE", colours->scene.paths, "The scene files it was built of"),
+              scene_endings())
+      ->required();
+  takes_files(app->add_option("-o,--output", colours->output, "The .svdag to write"), {".svdag"})
+      ->required()
+      ->type_name("OUT");
+  from_to(app->add_option_function<int>(
+              "--colour-level", [=](int level) { colours->pass.level = level; },
+              "The finest cubes with a colour: 2^K along an edge of the grid (default: the level "
+              "at which a cube spans one to two texels)"),
+          kMinColourLevel, 20)
+      ->type_name("K");
+  app->add_option_function<double>(
+         "--colour-error",
+         [=](double steps) {
+           if (!(steps >= 0 && steps <= 255)) fail_usage("--colour-error: choose 0 to 255 steps");
+           config->error = uint32_t(steps * kColourErrorUnit);
+         },
+         "Largest error of a colour, of 255 steps; 0 is lossless (default: 9)")
+      ->type_name("STEPS");
+  add_scene_options(app, &colours->scene);
+  add_resource_options(app, &colours->memory, &config->threads, &colours->scratch);
+  add_no_clobber(app, &config->output.no_clobber);
+  add_quiet(app, &config->output);
+  add_progress(app, &config->output);
+  add_examples(app, {"svdag colour truck.svdag truck.glb -o painted.svdag",
+                     "svdag colour truck.svdag truck.glb -o exact.svdag --colour-error 0"});
   app->preparse_callback([=](size_t) { *config = {}; });
   app->callback([=] { *command = *config; });
 }

@@ -50,6 +50,7 @@ int run_command(int argc, char** argv) {
   add_info(&app, &command);
   add_query(&app, &command);
   add_edit(&app, &command);
+  add_colour(&app, &command);
   add_convert(&app, &command);
   add_pack(&app, &command);
   add_unpack(&app, &command);

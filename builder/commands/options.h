@@ -23,6 +23,7 @@ void add_submit(CLI::App* program, Command* command);
 void add_info(CLI::App* program, Command* command);
 void add_query(CLI::App* program, Command* command);
 void add_edit(CLI::App* program, Command* command);
+void add_colour(CLI::App* program, Command* command);
 void add_convert(CLI::App* program, Command* command);
 void add_pack(CLI::App* program, Command* command);
 void add_unpack(CLI::App* program, Command* command);
