@@ -19,7 +19,7 @@ SCENE = ["io/scene/cutouts", "io/scene/mesh", "io/scene/polygons", "io/scene/dec
 FORMATS = ["io/formats", "io/formats/dags", "io/formats/voxels", "io/formats/vdb"]
 PHASES = ["builder/octree", "builder/overlap", "builder/overlap/kernels", "builder/winding", "builder/workspace", "builder/reduce",
           "builder/descend", "builder/split", "builder/run", "builder/merge"]
-DAG = ["io/dag", "io/dag/layers", "io/dag/compact", "io/dag/pack", "io/dag/graph"]
+DAG = ["io/dag", "io/dag/colours", "io/dag/layers", "io/dag/compact", "io/dag/pack", "io/dag/graph"]
 BAKE = STREAMING + ["io", *DAG] + SCENE + PHASES + ["builder/cache", "builder"]
 VERIFY = ["verify/integrity", "verify/judge", "verify/sample", "verify/compare", "verify/view", "verify/report"]
 TRACE = ["verify/trace/kernel", "verify/trace", "verify/trace/judge", "verify/trace/program"]
@@ -90,6 +90,8 @@ EXACT = {
     "io/dag/format.h": [],
     "io/dag/compact_view.h": ["format.h"],
     "io/dag/dag_view.h": ["compact_view.h"],
+    "io/dag/colours/chunk_view.h": ["../compact_view.h"],
+    "io/dag/colours/colour_view.h": ["../dag_view.h", "chunk_view.h"],
     "verify/trace/kernel/ray.h": ["io/dag/dag_view.h"],
     "verify/trace/kernel/traverse.h": ["verify/trace/kernel/ray.h"],
     "verify/trace/kernel/vector.h": ["verify/trace/kernel/traverse.h"],
@@ -111,7 +113,7 @@ EXACT = {
     "verify/trace/kernel/rays.cpp": ["verify/trace/kernel/rays.h", "verify/trace/kernel/cells64_avx2.h",
                               "verify/trace/kernel/processor.h", "verify/trace/kernel/walk64.h"],
     "verify/trace/program/plain_file.h": ["io/dag/layers/layer_index.h", "io/dag/layers/layer_table.h"],
-    "verify/trace/program/plain_file.cpp": ["verify/trace/program/plain_file.h", "io/dag/compact/compact_check.h", "io/dag/layers/root_views.h", "io/dag/pack/pack_format.h",
+    "verify/trace/program/plain_file.cpp": ["verify/trace/program/plain_file.h", "io/dag/colours/colours_check.h", "io/dag/compact/compact_check.h", "io/dag/layers/root_views.h", "io/dag/pack/pack_format.h",
                                     "streaming/error.h", "streaming/file/file.h",
                                     "streaming/file/input_watch.h"],
     "verify/trace/program/device.h": ["verify/trace/program/plain_file.h", "verify/trace/kernel/workload.h"],
