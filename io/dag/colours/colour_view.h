@@ -14,7 +14,7 @@
 namespace svdag {
 
 // A number per node of a level, as wide as the level needs.
-struct NodeCounts {
+struct LevelCounts {
   const void* counts = nullptr;
   uint32_t bytes = 0;  // 1, 2, 4, 8
 
@@ -36,7 +36,7 @@ struct NodeCounts {
 struct ColourCounts {
   uint32_t level = 0;  // K
   bool with_means = true;
-  NodeCounts levels[kMaxSections];  // levels 1 .. min(K - 1, L - 3)
+  LevelCounts levels[kMaxSections];  // levels 1 .. min(K - 1, L - 3)
 
   // The means of the levels K, K-2, ...
   SVDAG_HD uint32_t own(uint32_t k) const {
