@@ -145,13 +145,14 @@ class GltfReader {
     const bool has_colours = primitive.object("attributes").has("COLOR_0");
     if (!material) return has_colours ? &white_ : nullptr;
     const uint64_t index = primitive.whole_number("material");
-    auto found = paints_.find(index);
+    const double threshold = cut != nullptr ? cut->cut.threshold : 0;
+    auto found = paints_.find({index, threshold});
     if (found == paints_.end())
-      found = paints_
-                  .emplace(index, svdag::paint_of(document_, *material,
-                                                  cut != nullptr ? cut->cut.threshold : 0,
-                                                  &buffers_, options_.paints))
-                  .first;
+      found =
+          paints_
+              .emplace(std::pair(index, threshold),
+                       svdag::paint_of(document_, *material, threshold, &buffers_, options_.paints))
+              .first;
     const GltfPaint& textured = found->second;
     if (has_texture_points(textured.use, primitive)) return &textured;
     if (!has_colours) return nullptr;
@@ -405,8 +406,9 @@ class GltfReader {
   DracoPrimitives draco_;
   KeptPrimitives kept_;
   GltfPose pose_;
-  std::map<uint64_t, GltfCutOut> cuts_;                  // by material
-  std::map<uint64_t, GltfPaint> paints_, plain_paints_;  // by material; plain: without texture
+  std::map<uint64_t, GltfCutOut> cuts_;                      // by material
+  std::map<std::pair<uint64_t, double>, GltfPaint> paints_;  // by material and threshold
+  std::map<uint64_t, GltfPaint> plain_paints_;               // by material, without its texture
   GltfPaint white_;
   MeshWriter& out_;
   LeftOut left_out_;
