@@ -7,6 +7,7 @@
 #include <string>
 
 #include "builder/colours/colour_pass.h"
+#include "io/dag/colours/colour_writer.h"
 
 namespace svdag {
 
@@ -18,10 +19,6 @@ struct ColourFileConfig {
   uint64_t memory = 0;  // --memory in bytes; 0: half of the machine
   std::string scratch;  // --scratch: parent of the scratch folder; empty: the output's folder
 };
-
-// Returns the next colours of the sequence (io/dag/colours/cube_colour.h), valid until the next
-// call; empty at the end.
-using CubeColourSource = std::function<std::span<const CubeColour>()>;
 
 // Writes the file with colours of colour level `level`. The output's path names the old file until
 // it returns.
