@@ -91,6 +91,7 @@ void describe_scene(const SceneConfig& scene, std::ostream* out) {
          << " of animation " << escaped(animation) << '\n';
   if (hidden) *out << "hidden nodes: baked\n";
   if (!cut_outs) *out << "cut-outs: whole\n";
+  if (!names.cut_out.empty()) *out << "cut-out materials: " << list(names.cut_out) << '\n';
   *out << "invalid triangles: " << (skip_invalid ? "dropped" : "refused") << '\n';
 }
 

@@ -48,6 +48,17 @@ void add_scene_choice(CLI::App* app, SceneConfig* scene) {
   app->add_flag("--hidden", scene->hidden, "Include nodes that the file hides");
   app->add_flag("--no-cutouts{false}", scene->cut_outs,
                 "Take triangles whole whose material has transparent points (alphaMode MASK)");
+  app->add_option_function<std::vector<std::string>>(
+         "--cutout",
+         [scene](const std::vector<std::string>& patterns) {
+           if (!scene->cut_outs)
+             fail_usage("--cutout: --no-cutouts bakes all materials whole: give one");
+           scene->names.cut_out = patterns;
+         },
+         "Also cut out materials whose name matches a pattern, where the alpha of their texture is "
+         "below 0.5; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("PATTERN");
   app->add_flag("--skip-invalid", scene->skip_invalid,
                 "Drop triangles with NaN or infinite coordinates");
 }

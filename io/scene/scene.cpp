@@ -140,16 +140,16 @@ class ToWorld {
   std::vector<CornerColours> corner_colours_;
 };
 
-// Appends "--include 'sky*'" for patterns that matched nothing; if not `allowed`, an Error.
-void append_unmatched(const char* option, const std::vector<std::string>& patterns,
-                      const std::vector<bool>& used, const NameFilter::Use& use, bool allowed,
-                      std::vector<std::string>* out) {
+// Appends "--include 'sky*'" for patterns that matched no `subject`; if not `allowed`, an Error.
+void append_unmatched(const char* option, const char* subject,
+                      const std::vector<std::string>& patterns, const std::vector<bool>& used,
+                      const NameFilter::Use& use, bool allowed, std::vector<std::string>* out) {
   for (size_t i = 0; i < patterns.size(); ++i) {
     if (used[i]) continue;
     out->push_back(std::string(option) + " '" + patterns[i] + "'");
     if (allowed) continue;
     const std::string near = nearest_names(patterns[i], use);
-    fail_usage(out->back() + " matches nothing: " +
+    fail_usage(out->back() + " matches " + subject + ": " +
                (near.empty() ? "the scene has no names" : "the nearest names are " + near) +
                " (--allow-empty goes on)");
   }
@@ -228,8 +228,10 @@ LeftOut Scene::read_pose(const PoseTime* time, std::string_view frame, const Nam
 SceneCounts Scene::read(const TriangleSink& sink, MeshBox* box_alone) const {
   SceneCounts counts;
   NameFilter names = config_.names;
-  NameFilter::Use use{
-      std::vector<bool>(names.include.size()), std::vector<bool>(names.exclude.size()), {}};
+  NameFilter::Use use{std::vector<bool>(names.include.size()),
+                      std::vector<bool>(names.exclude.size()),
+                      {},
+                      std::vector<bool>(names.cut_out.size())};
   names.use = &use;
   const auto read_at = [&](std::optional<double> seconds, std::string_view frame) {
     const PoseTime time{seconds.value_or(0), config_.animation};
@@ -242,8 +244,13 @@ SceneCounts Scene::read(const TriangleSink& sink, MeshBox* box_alone) const {
     if (!one || config_.only->second == frame) read_at(parse_time(frame), frame);
   }
   const bool allowed = config_.allow_unmatched;
-  append_unmatched("--include", names.include, use.include, use, allowed, &counts.unmatched);
-  append_unmatched("--exclude", names.exclude, use.exclude, use, allowed, &counts.unmatched);
+  append_unmatched("--include", "nothing", names.include, use.include, use, allowed,
+                   &counts.unmatched);
+  append_unmatched("--exclude", "nothing", names.exclude, use.exclude, use, allowed,
+                   &counts.unmatched);
+  std::erase_if(use.names, [](const auto& name) { return name.second != PartKind::kMaterial; });
+  append_unmatched("--cutout", "no material of a glTF file", names.cut_out, use.cut_out, use,
+                   allowed, &counts.unmatched);
   counts.unread_images = images_.notes();
   std::ranges::copy(paints_.notes(), std::back_inserter(counts.unread_images));
   return counts;
@@ -312,7 +319,8 @@ void Scene::visit_files(const VisitFile& visit) const {
     const SceneFormat& format = detect_format(file);
     if (format.visit_beside != nullptr)
       format.visit_beside(content_of(file),
-                          {budget_, config_.colours, config_.allow_outside, config_.cut_outs},
+                          {budget_, config_.colours, config_.allow_outside,
+                           config_.cut_outs ? &config_.names : nullptr},
                           visit);
   }
 }

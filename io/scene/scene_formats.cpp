@@ -53,9 +53,9 @@ void visit_mtl_files(const File& content, const BesideOptions& options, const Vi
 void visit_gltf_files(const File& content, const BesideOptions& options, const VisitFile& visit) {
   const Tile tile(content, options.budget);
   if (tile.beside() != nullptr) visit(*tile.beside());
-  const auto load_document = options.cut_outs ? load_with_masks : load_gltf;
-  const GltfDocument document = load_document(tile.gltf_file(), options.budget,
-                                              {.images = options.colours}, tile.gltf_bytes());
+  const GltfDocument document =
+      load_with_cut_outs(tile.gltf_file(), options.budget, {.images = options.colours},
+                         tile.gltf_bytes(), options.cut_outs);
   for (const File& buffer : GltfBuffers(document, options.budget).files()) visit(buffer);
   for (const File& image : image_files(document)) visit(image);
 }

@@ -16,8 +16,8 @@ using VisitFile = std::function<void(const File&)>;
 struct BesideOptions {
   MemoryBudget* budget = nullptr;
   bool colours = false;
-  bool allow_outside = false;  // as in ReadOptions
-  bool cut_outs = false;
+  bool allow_outside = false;            // as in ReadOptions
+  const NameFilter* cut_outs = nullptr;  // not null: the images of materials that it cuts out
 };
 using VisitBeside = void (*)(const File& content, const BesideOptions& options,
                              const VisitFile& visit);

@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
-"""Writes cut.glb: N cards and a floor, in three materials: cut by a noisy texture (repeated), by a smooth one (mirrored and
-clamped, to the nearest texel), and whole."""
+"""cut_scene.py N [MODE [KEY]]: writes cut.glb: N cards and a floor, in three materials: cut by a noisy texture (repeated),
+by a smooth one (mirrored and clamped, to the nearest texel), and whole, or with this alphaMode. Cards of the last have
+their texture coordinates as attribute KEY."""
 import json
 import random
 import struct
 import sys
 import zlib
 
-N = int(sys.argv[1])
+words = sys.argv[1:] + ["", "OPAQUE", "TEXCOORD_0"][len(sys.argv) - 1:]
+N, MODE, KEY = int(words[0]), *words[1:]
 rng = random.Random(5)
 
 
@@ -35,7 +37,7 @@ def main():
                           "count": len(values) // width, "type": kind})
         return len(accessors) - 1
 
-    def cards(count, material):
+    def cards(count, material, key="TEXCOORD_0"):
         points, texture, corners = [], [], []
         for k in range(count):
             at, u, v = ([rng.uniform(-s, s) for _ in range(3)] for s in (10, 1, 1))
@@ -43,10 +45,10 @@ def main():
                 points += [at[i] + a * u[i] + b * v[i] for i in range(3)]
                 texture += [3 * a - 1, 2.5 * b - 0.75]
             corners += [4 * k + i for i in (0, 1, 2, 0, 2, 3)]
-        return {"attributes": {"POSITION": accessor(points, "VEC3", 3), "TEXCOORD_0": accessor(texture, "VEC2", 2)},
+        return {"attributes": {"POSITION": accessor(points, "VEC3", 3), key: accessor(texture, "VEC2", 2)},
                 "indices": accessor(corners, "SCALAR", 1, "I", 5125), "material": material}
 
-    primitives = [cards(N, 0), cards(N, 1), cards(N // 4, 2)]
+    primitives = [cards(N, 0), cards(N, 1), cards(N // 4, 2, KEY)]
     images = [{"bufferView": view(png(31, 17, lambda i, j: rng.choice((0, 60, 200, 255)))), "mimeType": "image/png"},
               {"bufferView": view(png(16, 16, lambda i, j: min(255, (i - 8) ** 2 + (j - 8) ** 2 + 60))), "mimeType": "image/png"}]
 
@@ -59,7 +61,7 @@ def main():
         "samplers": [{}, {"magFilter": 9728, "wrapS": 33648, "wrapT": 33071}],
         "textures": [{"source": 0, "sampler": 0}, {"source": 1, "sampler": 1}],
         "materials": [material("noisy", 0, alphaMode="MASK"), material("smooth", 1, alphaMode="MASK", alphaCutoff=0.4),
-                      material("whole", 0)],
+                      material("whole", 0, alphaMode=MODE)],
         "buffers": [{"byteLength": len(data)}], "bufferViews": views, "accessors": accessors}
     text = json.dumps(document).encode()
     text += b" " * (-len(text) % 4)

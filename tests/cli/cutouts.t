@@ -43,6 +43,35 @@ $ svdag info cut.glb --json | grep -E '"(cut|triangles)"'
 |   "triangles": 90,
 |   "cut": 80,
 
+## cut_outs_by_name
+# A pattern makes a mask of a material, in the same bytes.
+$ python3 -B $TESTS/cut_scene.py 40 MASK && svdag build cut.glb -o mask.svdag -r 128 -q
+$ python3 -B $TESTS/cut_scene.py 40 BLEND
+$ svdag build cut.glb -o whole.svdag -r 128 --cache cells | tail -2
+|   1 meshes of materials that blend are baked whole; --cutout PATTERN cuts them out
+|   160 triangles are cut out by the alpha of their material
+$ svdag build cut.glb -o a.svdag -r 128 --cache cells --cutout 'material:wh?le' | tail -1
+|   180 triangles are cut out by the alpha of their material
+$ cmp a.svdag mask.svdag; cmp -s whole.svdag mask.svdag || echo differ
+| differ
+$ svdag-verify mesh a.svdag cut.glb --cutout smooth --cutout 'wh*' | tail -1
+| ok: every voxel agrees with the scene
+$ svdag plan cut.glb -o plan -r 128 --shards 2 -q --cutout whole && svdag run plan -q && cmp a.svdag plan/cut.svdag
+$ python3 -B $TESTS/cut_scene.py 40 OPAQUE && svdag build cut.glb -o b.svdag -r 128 -q --cutout whole && cmp a.svdag b.svdag
+# Without the coordinates of its texture a mesh has none, and is whole.
+$ python3 -B $TESTS/cut_scene.py 40 MASK TEXCOORD_1 && svdag build cut.glb -o b.svdag -r 128 -q && cmp whole.svdag b.svdag
+
+## cut_outs_by_a_name_that_is_none
+$ python3 -B $TESTS/cut_scene.py 20
+$ svdag build cut.glb -o a.svdag -r 64 --cutout 'leaf*' --cutout smooth
+! svdag: --cutout 'leaf*' matches no material of a glTF file: the nearest names are material:noisy, material:whole, material:smooth (--allow-empty goes on)
+? 2
+$ svdag info cut.glb --cutout 'leaf*' --allow-empty | grep matches
+|   no part of the scene matches --cutout 'leaf*'
+$ svdag build cut.glb -o a.svdag -r 64 --cutout whole --no-cutouts
+! svdag: --cutout: --no-cutouts bakes all materials whole: give one
+? 2
+
 ## what_cannot_judge_cut_outs_says_so
 $ python3 -B $TESTS/cut_scene.py 20
 $ svdag build cut.glb -o a.svdag -r 64 -q

@@ -202,6 +202,7 @@ int run(const InfoCommand& config) {
     reject(scene.allow_outside, "--allow-outside", what);
     reject(scene.time.has_value(), "--time", what);
     reject(scene.hidden, "--hidden", what);
+    reject(!scene.names.cut_out.empty(), "--cutout", what);
     reject(scene.skip_invalid, "--skip-invalid", what);
     reject(scene.sandbox, "--sandbox", what);
     reject(scene.transform != Affine(), "--transform", what);

@@ -42,7 +42,7 @@ void require_names(const PlanConfig& config) {
   require_utf8(config.output);
   for (const std::string& path : scene.paths) require_utf8(absolute_path(path));
   require_utf8(scene.animation);
-  for (const auto& names : {scene.names.include, scene.names.exclude})
+  for (const auto& names : {scene.names.include, scene.names.exclude, scene.names.cut_out})
     for (const std::string& name : names) require_utf8(name);
 }
 

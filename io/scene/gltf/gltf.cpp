@@ -64,8 +64,8 @@ class GltfReader {
  private:
   GltfDocument load(const ReadOptions& options) const {
     const GltfParts parts{options.images != nullptr, options.time != nullptr};
-    const auto load_document = options.alpha != nullptr ? load_with_masks : load_gltf;
-    return load_document(tile_.gltf_file(), options.budget, parts, tile_.gltf_bytes());
+    return load_with_cut_outs(tile_.gltf_file(), options.budget, parts, tile_.gltf_bytes(),
+                              options.alpha != nullptr ? options.names : nullptr);
   }
 
   // CESIUM_RTC: the origin of a scene on the globe, given z-up.
@@ -98,12 +98,12 @@ class GltfReader {
         continue;
       }
       const GltfCutOut* cut = cut_of(primitive, material);
-      if (material && cut == nullptr && is_transparent(*material))
-        left_out_.add(Omission::kCutOuts);
+      if (material && cut == nullptr) count_transparent(*material);
+      if (cut != nullptr && has_vertex_alpha(document_, primitive, &buffers_))
+        left_out_.add(Omission::kVertexAlpha);
       if (cut != nullptr && cut->cut.is_opaque()) cut = nullptr;
       const GltfPaint* const paint = paint_of(primitive, material, cut);
-      if (paint == nullptr && (options_.images != nullptr || cut != nullptr) &&
-          attributes.has("COLOR_0"))
+      if (paint == nullptr && options_.images != nullptr && attributes.has("COLOR_0"))
         left_out_.add(Omission::kVertexColours);
       out_.material(name_of_material, colour_of(primitive, material));
       InstanceStream instances(node, world, &buffers_);
@@ -129,13 +129,17 @@ class GltfReader {
 
   // What cuts the primitive's material; null: it is whole. Coordinates in Draco are not read.
   const GltfCutOut* cut_of(const JsonObject& primitive, const std::optional<JsonObject>& material) {
-    if (options_.alpha == nullptr || !material || !is_mask(*material) || draco_.holds(primitive))
-      return nullptr;
-    const uint64_t index = primitive.whole_number("material");
-    const auto found = cuts_.find(index);
-    if (found != cuts_.end()) return &found->second;
-    return &cuts_.emplace(index, cut_out_of(document_, *material, &buffers_, options_.alpha))
-                .first->second;
+    if (options_.alpha == nullptr || !material || draco_.holds(primitive)) return nullptr;
+    const auto [at, is_new] = cuts_.try_emplace(primitive.whole_number("material"));
+    auto& [cut, without_texture] = at->second;
+    if (is_new && is_cut_out(*material, *options_.names)) {
+      cut = cut_out_of(document_, *material, &buffers_, options_.alpha);
+      without_texture = cut;
+      without_texture->use.set.reset();
+      without_texture->cut.image = options_.alpha->opaque();
+    }
+    if (!cut) return nullptr;
+    return has_texture_points(cut->use, primitive) ? &*cut : &*without_texture;
   }
 
   // What colours the points of the primitive; null: it has one colour, or these are not wanted.
@@ -172,9 +176,14 @@ class GltfReader {
     return by_points ? factor_colour(*material) : colour_of(*material);
   }
 
-  static bool is_transparent(const JsonObject& material) {
+  // Of a mesh that is baked whole.
+  void count_transparent(const JsonObject& material) {
     const std::string& alpha = material.text("alphaMode");
-    return alpha == "MASK" || alpha == "BLEND";
+    if (alpha == "BLEND" && options_.alpha != nullptr && has_base_texture(material)) {
+      left_out_.add(Omission::kBlended);
+    } else if (alpha == "MASK" || alpha == "BLEND") {
+      left_out_.add(Omission::kCutOuts);
+    }
   }
 
   // The base colour of the material, times the mean of its texture.
@@ -406,10 +415,11 @@ class GltfReader {
   DracoPrimitives draco_;
   KeptPrimitives kept_;
   GltfPose pose_;
-  std::map<uint64_t, GltfCutOut> cuts_;                      // by material
   std::map<std::pair<uint64_t, double>, GltfPaint> paints_;  // by material and threshold
   std::map<uint64_t, GltfPaint> plain_paints_;               // by material, without its texture
   GltfPaint white_;
+  // By material: with and without its texture; none: it is whole.
+  std::map<uint64_t, std::array<std::optional<GltfCutOut>, 2>> cuts_;
   MeshWriter& out_;
   LeftOut left_out_;
 };

@@ -6,28 +6,41 @@
 #include <span>
 #include <string>
 
+#include "io/scene/gltf/gltf_elements.h"
 #include "io/scene/gltf/gltf_images.h"
 #include "streaming/error.h"
 
 namespace svdag {
 namespace {
 
-bool has_mask(const GltfDocument& document) {
-  return std::ranges::any_of(document.root().array("materials"), [&](const nlohmann::json& value) {
-    return is_mask(JsonObject(value, document.file->path()));
-  });
-}
-
-}  // namespace
-
 bool is_mask(const JsonObject& material) {
   return material.text("alphaMode") == "MASK";
 }
 
-GltfDocument load_with_masks(const File& file, MemoryBudget* budget, GltfParts parts,
-                             GltfBytes bytes) {
+// Looks at every material, so that every pattern that matches one is recorded.
+bool has_cut_out(const GltfDocument& document, const NameFilter& names) {
+  return std::ranges::count_if(document.root().array("materials"),
+                               [&](const nlohmann::json& value) {
+                                 return is_cut_out(JsonObject(value, document.file->path()), names);
+                               }) > 0;
+}
+
+}  // namespace
+
+bool has_base_texture(const JsonObject& material) {
+  const GltfBaseColour base = base_colour_of(material);
+  return base.object && base.object->has(base.texture);
+}
+
+bool is_cut_out(const JsonObject& material, const NameFilter& names) {
+  const bool is_named = names.cuts_out(material.text("name"));  // in any case: it records matches
+  return is_mask(material) || (is_named && has_base_texture(material));
+}
+
+GltfDocument load_with_cut_outs(const File& file, MemoryBudget* budget, GltfParts parts,
+                                GltfBytes bytes, const NameFilter* names) {
   GltfDocument document = load_gltf(file, budget, parts, bytes);
-  if (parts.images || !has_mask(document)) return document;
+  if (names == nullptr || !has_cut_out(document, *names) || parts.images) return document;
   document = GltfDocument();
   parts.images = true;
   return load_gltf(file, budget, parts, bytes);
@@ -39,7 +52,7 @@ GltfCutOut cut_out_of(const GltfDocument& document, const JsonObject& material,
   const GltfBaseColour base = base_colour_of(material);
   std::array<double, 4> factor{1, 1, 1, 1};
   if (base.object) base.object->numbers(base.factor, factor);
-  const double cutoff = material.number("alphaCutoff", 0.5);
+  const double cutoff = is_mask(material) ? material.number("alphaCutoff", 0.5) : 0.5;
   constexpr double kNever = std::numeric_limits<double>::infinity();
   result.cut.threshold = cutoff <= 0 ? 0 : factor[3] > 0 ? cutoff * 255 / factor[3] : kNever;
   result.cut.image = images->opaque();
@@ -54,6 +67,22 @@ GltfCutOut cut_out_of(const GltfDocument& document, const JsonObject& material,
   result.cut.wrap_v = use->wrap_v;
   result.cut.nearest = use->nearest;
   return result;
+}
+
+bool has_vertex_alpha(const GltfDocument& document, const JsonObject& primitive,
+                      GltfBuffers* buffers) {
+  const JsonObject attributes = primitive.object("attributes");
+  if (!attributes.has("COLOR_0")) return false;
+  const uint64_t number = attributes.whole_number("COLOR_0");
+  if (document.element("accessors", number).text("type") != "VEC4") return false;
+  ElementStream colours(buffers->accessor(number, "VEC4"));
+  std::array<double, 2048> window;
+  while (const size_t n = colours.read(std::span<double>(window))) {
+    for (size_t i = 0; i < n; ++i) {
+      if (window[4 * i + 3] != 1) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace svdag

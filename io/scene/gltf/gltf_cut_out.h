@@ -1,8 +1,11 @@
 // Materials of glTF whose transparent points are cut out: those with alphaMode MASK (3.9.4 of the
-// specification).
+// specification), and those with a texture that --cutout names.
 //
 // A point is opaque if the alpha of the base colour's texture times that of its factor reaches
-// alphaCutoff. The alpha of COLOR_0 is not read.
+// alphaCutoff, or 0.5 without MASK. A primitive without the coordinates that its material names has
+// no texture. The alpha of COLOR_0 is counted, not followed. Rejected: following it. Its product
+// with a bilinear alpha may have a maximum inside a polygon, which cut_out.h excludes, and every
+// record of a cut triangle would need it.
 #pragma once
 
 #include "io/scene/cutouts/alpha_images.h"
@@ -10,6 +13,7 @@
 #include "io/scene/gltf/gltf_buffers.h"
 #include "io/scene/gltf/gltf_document.h"
 #include "io/scene/gltf/gltf_texture.h"
+#include "io/scene/mesh/name_filter.h"
 
 namespace svdag {
 
@@ -18,13 +22,20 @@ struct GltfCutOut {
   GltfTextureUse use;  // without a set: no texture
 };
 
-bool is_mask(const JsonObject& material);
-// As load_gltf(), with images if a material has a mask: images may be a large part of the JSON.
-GltfDocument load_with_masks(const File& file, MemoryBudget* budget, GltfParts parts,
-                             GltfBytes bytes);
+// `names`: of --cutout.
+bool is_cut_out(const JsonObject& material, const NameFilter& names);
+bool has_base_texture(const JsonObject& material);
+// As load_gltf(); unless `names` is null, with images if a material is cut out: images may be a
+// large part of the JSON.
+GltfDocument load_with_cut_outs(const File& file, MemoryBudget* budget, GltfParts parts,
+                                GltfBytes bytes, const NameFilter* names);
 
-// `material`: with is_mask(), of a document that was loaded with its images.
+// `material`: with is_cut_out(), of a document that was loaded with its images.
 GltfCutOut cut_out_of(const GltfDocument& document, const JsonObject& material,
                       GltfBuffers* buffers, AlphaImages* images);
+
+// Whether a vertex of `primitive` has another alpha in COLOR_0 than 1.
+bool has_vertex_alpha(const GltfDocument& document, const JsonObject& primitive,
+                      GltfBuffers* buffers);
 
 }  // namespace svdag

@@ -83,6 +83,13 @@ bool NameFilter::includes(PartKind kind, const std::string& name) const {
   return matches_any(include, kind, name, use == nullptr ? nullptr : &use->include);
 }
 
+bool NameFilter::cuts_out(const std::string& material) const {
+  if (cut_out.empty()) return false;
+  if (use != nullptr) record(use, PartKind::kMaterial, material);
+  return matches_any(cut_out, PartKind::kMaterial, material,
+                     use == nullptr ? nullptr : &use->cut_out);
+}
+
 std::string nearest_names(const std::string& pattern, const NameFilter::Use& use) {
   constexpr size_t kShown = 3, kMaxLength = 200;
   const Pattern p = parse(pattern);

@@ -27,16 +27,19 @@ struct NameFilter {
   struct Use {
     std::vector<bool> include, exclude;                // whether each pattern matched a name
     std::set<std::pair<std::string, PartKind>> names;  // met so far; at most kMaxNames
+    std::vector<bool> cut_out = {};
     static constexpr size_t kMaxNames = 10000;
   };
 
-  std::vector<std::string> include;  // if not empty, only what matches one of these
-  std::vector<std::string> exclude;  // nothing that matches one of these
-  Use* use = nullptr;                // if not null, is filled
+  std::vector<std::string> include;       // if not empty, only what matches one of these
+  std::vector<std::string> exclude;       // nothing that matches one of these
+  Use* use = nullptr;                     // if not null, is filled
+  std::vector<std::string> cut_out = {};  // materials to cut out, whatever the file says
 
   bool excludes(PartKind kind, const std::string& name) const;
   // True if `include` is empty.
   bool includes(PartKind kind, const std::string& name) const;
+  bool cuts_out(const std::string& material) const;
   bool empty() const { return include.empty() && exclude.empty(); }
 };
 
