@@ -149,7 +149,7 @@ ImageMean mean_of_image(const ImageSource& source, MemoryBudget* budget) {
   return mean;
 }
 
-AlphaTexels alpha_of_image(const ImageSource& source, MemoryBudget* budget) {
+AlphaTexels alpha_of_image(const ImageSource& source, MemoryBudget* budget, bool or_luminance) {
   const CheckedImage image = check_image(source, budget);
   AlphaTexels texels{image.size.width, image.size.height, {}};
   const uint64_t count = image.size.texels();
@@ -160,8 +160,14 @@ AlphaTexels alpha_of_image(const ImageSource& source, MemoryBudget* budget) {
         const Texels decoded = decode(source);
         const size_t channels = decoded.channels;
         std::vector<uint8_t> alpha(size_t(decoded.size.texels()), 255);
-        for (size_t i = 0; channels % 2 == 0 && i < alpha.size(); ++i)
-          alpha[i] = decoded.all()[(i + 1) * channels - 1];
+        const bool has_alpha = channels % 2 == 0;
+        for (size_t i = 0; (has_alpha || or_luminance) && i < alpha.size(); ++i) {
+          const auto texel = decoded.all().subspan(i * channels, channels);
+          const bool is_grey = channels == 1;
+          alpha[i] = has_alpha || is_grey
+                         ? texel.back()
+                         : uint8_t((77 * texel[0] + 150 * texel[1] + 29 * texel[2]) / 256);
+        }
         out.send(0, std::span<const uint8_t>(alpha));
       },
       [&](const DecoderMessage& message) {

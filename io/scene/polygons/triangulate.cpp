@@ -50,6 +50,12 @@ void Triangulator::grow() {
   corners_.reserve(capacity);
 }
 
+void Triangulator::grow_texture() {
+  // Half of them twice while they are moved.
+  texture_reservation_.resize(corners_.capacity() * sizeof(TexturePoint) * 3 / 2, kPurpose);
+  texture_.reserve(corners_.capacity());
+}
+
 void Triangulator::finish(BatchWriter& writer) {
   if (corners_.size() > 3 && project() && !is_convex()) {
     clip_ears(writer);
@@ -57,11 +63,17 @@ void Triangulator::finish(BatchWriter& writer) {
     fan(writer);
   }
   corners_.clear();
+  texture_.clear();
+}
+
+void Triangulator::add(size_t a, size_t b, size_t c, BatchWriter& writer) const {
+  if (texture_.empty()) return writer.add(corners_[a], corners_[b], corners_[c]);
+  writer.add_cut({{corners_[a], corners_[b], corners_[c]}},
+                 {texture_[a], texture_[b], texture_[c]});
 }
 
 void Triangulator::fan(BatchWriter& writer) const {
-  for (size_t i = 2; i < corners_.size(); ++i)
-    writer.add(corners_[0], corners_[i - 1], corners_[i]);
+  for (size_t i = 2; i < corners_.size(); ++i) add(0, i - 1, i, writer);
 }
 
 // Fills flat_; false if the polygon has almost no area (or is not finite).
@@ -213,7 +225,7 @@ void Triangulator::ask_again(uint32_t corner) {
 // Removes a corner from the ring as the triangle with its neighbours; returns the previous corner.
 uint32_t Triangulator::clip(uint32_t corner, BatchWriter& writer) {
   const uint32_t a = prev_[corner], c = next_[corner];
-  writer.add(corners_[a], corners_[corner], corners_[c]);
+  add(a, corner, c, writer);
   next_[a] = c;
   prev_[c] = a;
   --left_;
@@ -256,8 +268,7 @@ void Triangulator::clip_ears(BatchWriter& writer) {
     const uint32_t c = clip_slit(next_[a], writer);
     here = next_[c];  // not c: the ears of a round shape would all share one corner
   }
-  for (uint32_t i = next_[here]; next_[i] != here; i = next_[i])
-    writer.add(corners_[here], corners_[i], corners_[next_[i]]);
+  for (uint32_t i = next_[here]; next_[i] != here; i = next_[i]) add(here, i, next_[i], writer);
 }
 
 }  // namespace svdag

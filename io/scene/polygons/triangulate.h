@@ -40,12 +40,21 @@ class Triangulator {
 
   // `path`: of the scene, for an Error. `steps`: max per corner of a polygon.
   Triangulator(MemoryBudget* budget, std::string path, uint64_t steps = kStepsPerCorner)
-      : path_(std::move(path)), steps_(steps), reservation_(budget->reserve(0, kPurpose)) {}
+      : path_(std::move(path)),
+        steps_(steps),
+        reservation_(budget->reserve(0, kPurpose)),
+        texture_reservation_(budget->reserve(0, kPurpose)) {}
 
   // The corners of the next polygon, in order.
   void corner(const Point& p) {
     if (corners_.size() == corners_.capacity()) grow();
     corners_.push_back(p);
+  }
+  // The same, of a polygon whose corners are all in a texture that is cut out.
+  void corner(const Point& p, const TexturePoint& texture) {
+    corner(p);
+    if (texture_.capacity() < corners_.capacity()) grow_texture();
+    texture_.push_back(texture);
   }
   // Passes the triangles to `writer` and starts the next polygon; fewer than 3 corners give none.
   // One that takes too many steps is an Error (kBadInput); outlines take some hundreds per corner.
@@ -57,6 +66,8 @@ class Triangulator {
   static constexpr const char* kPurpose = "corners of a polygon";
 
   void grow();
+  void grow_texture();
+  void add(size_t a, size_t b, size_t c, BatchWriter& writer) const;
   bool project();
   bool is_convex() const;
   double turn(size_t a, size_t b, size_t c) const;
@@ -77,8 +88,9 @@ class Triangulator {
 
   const std::string path_;
   const uint64_t steps_;
-  MemoryBudget::Reservation reservation_;
+  MemoryBudget::Reservation reservation_, texture_reservation_;
   std::vector<Point> corners_;
+  std::vector<TexturePoint> texture_;  // of the corners, or empty
   std::vector<glm::dvec2> flat_;       // the projection, counter-clockwise
   std::vector<uint32_t> prev_, next_;  // the ring of corners not clipped yet
   uint32_t left_ = 0;                  // their number
