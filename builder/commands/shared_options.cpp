@@ -62,8 +62,6 @@ void add_progress(CLI::App* app, OutputConfig* output) {
 
 void add_scene_options(CLI::App* app, SceneConfig* scene) {
   add_scene_choice(app, scene);
-  app->add_flag("--allow-outside", scene->allow_outside,
-                "Read .mtl files and textures outside the folder of an .obj file, too");
   app->add_flag(
       "--sandbox", scene->sandbox,
       "Run Assimp, ufbx, Draco, meshoptimizer, OpenMesh and stb_image in a process that can only "

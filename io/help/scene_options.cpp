@@ -61,6 +61,8 @@ void add_scene_choice(CLI::App* app, SceneConfig* scene) {
       ->type_name("PATTERN");
   app->add_flag("--skip-invalid", scene->skip_invalid,
                 "Drop triangles with NaN or infinite coordinates");
+  app->add_flag("--allow-outside", scene->allow_outside,
+                "Read .mtl files and textures outside the folder of an .obj file, too");
 }
 
 }  // namespace svdag

@@ -13,7 +13,7 @@ class App;
 namespace svdag {
 
 // Adds --include, --exclude, --allow-empty, --time, --animation, --hidden,
-// --no-cutouts, --cutout and --skip-invalid.
+// --no-cutouts, --cutout, --skip-invalid and --allow-outside.
 void add_scene_choice(CLI::App* app, SceneConfig* scene);
 // Adds --frames; before add_scene_choice(), since options are applied in the order of their
 // definition. `then` is called after it is applied.

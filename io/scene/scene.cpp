@@ -249,7 +249,7 @@ SceneCounts Scene::read(const TriangleSink& sink, MeshBox* box_alone) const {
   append_unmatched("--exclude", "nothing", names.exclude, use.exclude, use, allowed,
                    &counts.unmatched);
   std::erase_if(use.names, [](const auto& name) { return name.second != PartKind::kMaterial; });
-  append_unmatched("--cutout", "no material of a glTF file", names.cut_out, use.cut_out, use,
+  append_unmatched("--cutout", "no material of a glTF or OBJ file", names.cut_out, use.cut_out, use,
                    allowed, &counts.unmatched);
   counts.unread_images = images_.notes();
   std::ranges::copy(paints_.notes(), std::back_inserter(counts.unread_images));

@@ -45,9 +45,10 @@ bool begins_as_fbx(std::string_view start, bool is_named_stl) {
 }
 
 void visit_mtl_files(const File& content, const BesideOptions& options, const VisitFile& visit) {
-  if (!options.colours) return;
-  for (const std::string& beside : mtl_files(content, {options.budget, options.allow_outside}))
-    visit(File::open_read(beside));
+  if (!options.colours && options.cut_outs == nullptr) return;
+  const MtlOptions mtl{options.budget, options.allow_outside, nullptr, options.colours,
+                       options.cut_outs};
+  for (const std::string& beside : mtl_files(content, mtl)) visit(File::open_read(beside));
 }
 
 void visit_gltf_files(const File& content, const BesideOptions& options, const VisitFile& visit) {

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """cut_scene.py N [MODE [KEY]]: writes cut.glb: N cards and a floor, in three materials: cut by a noisy texture (repeated),
 by a smooth one (mirrored and clamped, to the nearest texel), and whole, or with this alphaMode. Cards of the last have
-their texture coordinates as attribute KEY."""
+their texture coordinates as attribute KEY. Also cut.obj, cut.mtl and noisy.png: the first and the last material, cut by
+map_d, or without MODE MASK whole with the texture as map_Kd."""
 import json
 import random
 import struct
@@ -23,7 +24,7 @@ def png(width, height, alpha):
 
 
 def main():
-    data, views, accessors = b"", [], []
+    data, views, accessors, parts = b"", [], [], []
 
     def view(content):
         nonlocal data
@@ -45,6 +46,7 @@ def main():
                 points += [at[i] + a * u[i] + b * v[i] for i in range(3)]
                 texture += [3 * a - 1, 2.5 * b - 0.75]
             corners += [4 * k + i for i in (0, 1, 2, 0, 2, 3)]
+        parts.append((points, texture))
         return {"attributes": {"POSITION": accessor(points, "VEC3", 3), key: accessor(texture, "VEC2", 2)},
                 "indices": accessor(corners, "SCALAR", 1, "I", 5125), "material": material}
 
@@ -69,6 +71,23 @@ def main():
     with open("cut.glb", "wb") as out:
         out.write(struct.pack("<4sIIII", b"glTF", 2, 28 + len(text) + len(data), len(text), 0x4E4F534A) + text +
                   struct.pack("<II", len(data), 0x004E4942) + data)
+
+    def row(word, values):
+        return " ".join([word, *(repr(x) for x in values)]) + "\n"
+
+    with open("cut.obj", "w") as out:
+        out.write("mtllib cut.mtl\n")
+        for name, (points, texture) in (("noisy", parts[0]), ("whole", parts[2])):
+            points = struct.unpack(f"<{len(points)}f", struct.pack(f"<{len(points)}f", *points))
+            out.write(f"usemtl {name}\n")
+            for k in range(0, len(points) // 3, 4):
+                out.writelines(row("v", points[3 * i:3 * i + 3]) for i in range(k, k + 4))
+                out.writelines(row("vt", (texture[2 * i], 1 - texture[2 * i + 1])) for i in range(k, k + 4))
+                out.write("f -4/-4 -3/-3 -2/-2\nf -4/-4/1 -2/-2/1 -1/-1/1\nvn 0 0 1\n" if k == 0 else "f -4/-4 -3/-3 -2/-2 -1/-1\n")
+    with open("cut.mtl", "w") as out:
+        out.write(f"newmtl noisy\nmap_d noisy.png\nnewmtl whole\n{'map_d' if MODE == 'MASK' else 'map_Kd'} noisy.png\n")
+    with open("noisy.png", "wb") as out:
+        out.write(data[views[images[0]["bufferView"]]["byteOffset"]:][:views[images[0]["bufferView"]]["byteLength"]])
 
 
 main()

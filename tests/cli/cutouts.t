@@ -64,13 +64,31 @@ $ python3 -B $TESTS/cut_scene.py 40 MASK TEXCOORD_1 && svdag build cut.glb -o b.
 ## cut_outs_by_a_name_that_is_none
 $ python3 -B $TESTS/cut_scene.py 20
 $ svdag build cut.glb -o a.svdag -r 64 --cutout 'leaf*' --cutout smooth
-! svdag: --cutout 'leaf*' matches no material of a glTF file: the nearest names are material:noisy, material:whole, material:smooth (--allow-empty goes on)
+! svdag: --cutout 'leaf*' matches no material of a glTF or OBJ file: the nearest names are material:noisy, material:whole, material:smooth (--allow-empty goes on)
 ? 2
 $ svdag info cut.glb --cutout 'leaf*' --allow-empty | grep matches
 |   no part of the scene matches --cutout 'leaf*'
 $ svdag build cut.glb -o a.svdag -r 64 --cutout whole --no-cutouts
 ! svdag: --cutout: --no-cutouts bakes all materials whole: give one
 ? 2
+
+## cut_outs_of_an_obj
+# The same voxels as of the glTF scene, whose textures are upside down.
+$ python3 -B $TESTS/cut_scene.py 40 MASK && svdag build cut.glb -o glb.svdag -r 128 -q --exclude smooth
+$ svdag build cut.obj -o a.svdag -r 128 | tail -1
+|   100 triangles are cut out by the alpha of their material
+$ cmp a.svdag glb.svdag && svdag-verify mesh a.svdag cut.obj | tail -1
+| ok: every voxel agrees with the scene
+$ svdag plan cut.obj -o plan -r 128 --shards 2 -q && svdag run plan -q && cmp a.svdag plan/cut.svdag
+$ svdag build cut.obj -o b.svdag -r 128 -q -m 4M && cmp a.svdag b.svdag
+$ python3 -B $TESTS/cut_scene.py 40 && svdag build cut.obj -o b.svdag -r 128 -q --cutout whole && cmp a.svdag b.svdag
+$ svdag build cut.obj -o noisy.png -r 16
+! svdag: noisy.png is also an input, which is never overwritten: choose another output
+? 2
+$ rm noisy.png && svdag build cut.obj -o b.svdag -r 16
+! svdag: noisy.png: cannot be opened: no such file or folder; --no-cutouts bakes the material whole
+? 3
+$ svdag build cut.obj -o b.svdag -r 16 -q --no-cutouts
 
 ## what_cannot_judge_cut_outs_says_so
 $ python3 -B $TESTS/cut_scene.py 20

@@ -54,7 +54,7 @@ def journal(lattice):
         1 + z, 16000 + z, [z]) for z in range(2))
     layers = struct.pack("<IQ", 0, 0)
     windings = struct.pack("<IQ", 1, 2) + struct.pack("<2Ii2Ii", 0, 0, 1, 511, 0, -2) if lattice else struct.pack("<I", 0)
-    left_out = struct.pack("<17Q", *range(17))
+    left_out = struct.pack("<18Q", *range(18))
     cut_outs = struct.pack("<Q2q", 1, 3, 2) + text(bytes((0, 128, 255, 1, 2, 200)))
     cut_outs += struct.pack("<Q4Id", 1, 0, 0, 2, 1, 127.5)
     split = (struct.pack("<Qd3Q", 18, 0.25, 0, 4, 2) + left_out + struct.pack("<3Qd2Qd", 1, 2, 3, 0.125, 1, 0, 8) + struct.pack("<Q", 2) + bins + layers

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/scene/cutouts/alpha_image.h"
@@ -22,7 +23,9 @@ class AlphaImages {
 
   // The image `name`, which is unique to it; read() is called the first time. It decides voxels, so
   // one that cannot be read is an Error (kBadInput).
-  std::shared_ptr<const AlphaImage> image(const std::string& name, const Read& read);
+  // `or_luminance`: in place of the alpha, if the image has none.
+  std::shared_ptr<const AlphaImage> image(const std::string& name, const Read& read,
+                                          bool or_luminance = false);
   // One texel of alpha 255.
   std::shared_ptr<const AlphaImage> opaque();
 
@@ -31,7 +34,7 @@ class AlphaImages {
  private:
   MemoryBudget* budget_;
   bool sandbox_;
-  std::map<std::string, std::shared_ptr<const AlphaImage>> images_;
+  std::map<std::pair<std::string, bool>, std::shared_ptr<const AlphaImage>> images_;
 };
 
 }  // namespace svdag

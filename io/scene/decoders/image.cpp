@@ -183,12 +183,16 @@ uint8_t alpha_of(const stbi_uc* texel, size_t channels) {
 
 }  // namespace
 
-AlphaTexels alpha_of_image(const ImageSource& source, MemoryBudget* budget) {
+AlphaTexels alpha_of_image(const ImageSource& source, MemoryBudget* budget, bool or_luminance) {
   const CheckedImage image = check_image(source, budget);
-  return {image.size.width, image.size.height,
-          decoded_bytes<1>(source, image, [](const stbi_uc* texel, size_t channels, uint8_t* out) {
-            out[0] = alpha_of(texel, channels);
-          })};
+  const auto convert = [&](const stbi_uc* texel, size_t channels, uint8_t* out) {
+    if (channels % 2 == 0 || !or_luminance)
+      out[0] = alpha_of(texel, channels);
+    else
+      out[0] = channels == 1 ? texel[0]
+                             : uint8_t((77 * texel[0] + 150 * texel[1] + 29 * texel[2]) / 256);
+  };
+  return {image.size.width, image.size.height, decoded_bytes<1>(source, image, convert)};
 }
 
 ColourTexels colours_of_image(const ImageSource& source, MemoryBudget* budget) {

@@ -48,13 +48,15 @@ struct ImageMean {
 // format is an Error (kBadInput).
 ImageMean mean_of_image(const ImageSource& source, MemoryBudget* budget);
 
-// The alpha of the texels, row by row from the top; 255 in an image without alpha.
+// The alpha of the texels, row by row from the top; in an image without alpha their luminance
+// (77 R + 150 G + 29 B) / 256 if `or_luminance`, else 255.
 struct AlphaTexels {
   int width = 0, height = 0;
   std::vector<uint8_t> alpha;
 };
 // Errors as above.
-AlphaTexels alpha_of_image(const ImageSource& source, MemoryBudget* budget);
+AlphaTexels alpha_of_image(const ImageSource& source, MemoryBudget* budget,
+                           bool or_luminance = false);
 
 // The texels, row by row from the top: red, green and blue in sRGB, and alpha (255 in an image
 // without).

@@ -16,6 +16,7 @@ enum class Omission : uint8_t {
   kCutOuts,
   kBlended,
   kVertexAlpha,
+  kMaterialFiles,
   kVertexColours,
   kUnweighted,
   kChannels,
@@ -42,6 +43,9 @@ constexpr OmissionKind kOmissions[] = {
     {"cut_outs", "meshes of materials with transparent points are baked whole"},
     {"blended", "meshes of materials that blend are baked whole; --cutout PATTERN cuts them out"},
     {"vertex_alpha", "cut-out meshes have alpha of vertices, which is not followed"},
+    {"material_files",
+     "lines name .mtl files outside the scene's folder (--allow-outside reads them) or after 64 "
+     "KiB"},
     {"vertex_colours", "meshes have colours of vertices, which are not read"},
     {"unweighted", "skinned vertices without weights are placed by their node"},
     {"channels", "channels of animations are not followed: they move no node"},

@@ -97,6 +97,25 @@ void MeshWriter::material(std::string_view name, std::optional<Colour> colour) {
   out_.material(name, colour);
 }
 
+void MeshWriter::cut_out(const CutOut* cut) {
+  const CutOut* own = nullptr;  // a recording may outlive the reader
+  if (cut != nullptr) {
+    const auto found = std::ranges::find(cuts_, *cut);
+    own = found != cuts_.end() ? &*found : &cuts_.emplace_back(*cut);
+  }
+  if (!recording_) return out_.cut_out(own);
+  if (marks_) return;
+  put_code(kCut);
+  put_code(own == nullptr ? 0 : 1 + uint64_t(std::ranges::find(cuts_, *own) - cuts_.begin()));
+}
+
+void MeshWriter::record_texture(const TexturePoint& texture) {
+  if (!recording_) start_recording();
+  if (marks_) return;
+  put_code(kTexture);
+  put_bytes(std::as_bytes(std::span(&texture, 1)));
+}
+
 void MeshWriter::end_mesh() {
   draw_recorded();
   positions_.reset();
@@ -235,7 +254,13 @@ void MeshWriter::replay() {
   windows.rewind();
   CodeReader codes(codes_stream_, options_.budget);
   std::array<Point, 3> first;
+  TextureCorners first_texture{};
+  TexturePoint texture{};
+  bool is_textured = false;  // the polygon
   uint64_t corners = 0;
+  const auto add_corner = [&](const Point& p, const TexturePoint& at) {
+    is_textured ? triangulator_.corner(p, at) : triangulator_.corner(p);
+  };
   while (!codes.at_end()) {
     const uint64_t code = codes.code();
     if (code >= kFirstWindow) {
@@ -243,17 +268,27 @@ void MeshWriter::replay() {
       const Point p = is_placed_ ? to_world_(as_stored) : as_stored;
       if (corners < 3) {
         first[corners] = p;
+        first_texture[corners] = texture;
       } else {
-        if (corners == 3) {
-          for (const Point& q : first) triangulator_.corner(q);
-        }
-        triangulator_.corner(p);
+        for (size_t i = 0; corners == 3 && i < 3; ++i) add_corner(first[i], first_texture[i]);
+        add_corner(p, texture);
       }
       ++corners;
     } else if (code == kEnd) {
-      if (corners == 3) out_.add(first[0], first[1], first[2]);
+      if (corners == 3 && is_textured) out_.add_cut({first}, first_texture);
+      if (corners == 3 && !is_textured) out_.add(first[0], first[1], first[2]);
       if (corners > 3) triangulator_.finish(out_);
       corners = 0;
+      is_textured = false;
+    } else if (code == kTexture) {
+      std::array<uint8_t, sizeof texture> bytes;
+      for (uint8_t& each : bytes) each = codes.byte();
+      std::memcpy(&texture, bytes.data(), sizeof texture);
+      is_textured = true;
+    } else if (code == kCut) {
+      const uint64_t number = codes.code();
+      if (number > cuts_.size()) fail_changed();
+      out_.cut_out(number == 0 ? nullptr : &cuts_[size_t(number - 1)]);
     } else {
       std::array<uint8_t, 4> more;
       for (uint8_t& each : more) each = codes.byte();

@@ -5,15 +5,16 @@
 // Vertices in memory are looked up at once. Beyond the share that a SpillSpace grants they are in
 // windows on disk (io/scene/mesh/vertex_windows.h): the corners are recorded, and when the mesh
 // ends a join brings their positions, polygon by polygon in the order of the file. The sink gets
-// the same triangles either way. The recording holds for each corner the number of its window, and
-// between polygons the names that change: so a file is read once, and a further index of a corner
-// (a texture coordinate, a colour) would be one more array of vertices with windows of its own.
+// the same triangles either way. The recording holds for each corner the number of its window, in a
+// cut-out polygon its texture coordinate, and between polygons the names that change: so a file is
+// read once.
 // Rejected: no recording, but running the reader's loop over the faces again (each reader must be
 // written for positions that it cannot see, and text is parsed twice).
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <span>
@@ -113,6 +114,14 @@ class MeshWriter {
     if (!positions_->spilled()) return triangulator_.corner(stored(i));
     record(i);
   }
+  // The same, of a polygon with all of its corners in the texture of cut_out().
+  void corner(uint64_t i, const TexturePoint& texture) {
+    if (points_ != nullptr) return triangulator_.corner(points_[i], texture);
+    if (!colours_.empty()) return triangulator_.corner(stored(i), texture, colours_[i]);
+    if (!positions_->spilled()) return triangulator_.corner(stored(i), texture);
+    record_texture(texture);
+    record(i);
+  }
   // Fewer than three corners give no triangle.
   void end_polygon() {
     if (recording_) return record_end();
@@ -121,8 +130,11 @@ class MeshWriter {
   // A triangle without vertices, after begin_soup().
   void add(const Point& a, const Point& b, const Point& c) { out_.add(a, b, c); }
   void begin_soup() { end_mesh(); }
-  // Of a soup: triangles of a material that is cut out (BatchWriter).
-  void cut_out(const CutOut* cut) { out_.cut_out(cut); }
+  // Of the polygons with texture from here on: which material cuts them out; null: none.
+  void cut_out(const CutOut* cut);
+  // Polygons of the mesh may be cut out, which the summary counts. Call it after begin().
+  void count_cut_outs() { is_counted_ = true; }
+  // To a soup.
   void add_cut(const Triangle& t, const TextureCorners& texture) { out_.add_cut(t, texture); }
   // Of a soup: what colours its points (BatchWriter).
   void paint(const Paint* paint) { out_.paint(paint); }
@@ -166,6 +178,7 @@ class MeshWriter {
     ++corners_;
   }
   void record_end();
+  void record_texture(const TexturePoint& texture);
   void record_name(uint64_t kind, std::string_view name, std::array<uint8_t, 4> more);
   void put_code(uint64_t code);
   void put_bytes(std::span<const std::byte> bytes);
@@ -175,8 +188,9 @@ class MeshWriter {
   void replay();
 
   // A recording: for each corner kFirstWindow + the number of its window, kEnd after each polygon;
-  // kMesh and kMaterial with a name.
-  enum Code : uint64_t { kMesh, kMaterial, kEnd, kFirstWindow };
+  // kMesh and kMaterial with a name; kCut with the number of a material, 0: none; kTexture with the
+  // place in a texture of the corner that follows.
+  enum Code : uint64_t { kMesh, kMaterial, kEnd, kCut, kTexture, kFirstWindow };
 
   const ReadOptions& options_;
   Triangulator triangulator_;
@@ -186,11 +200,12 @@ class MeshWriter {
   Point* points_ = nullptr;  // not null: all vertices, in the world
   uint64_t size_ = 0;        // number of vertices
   Affine to_world_ = {};
-  bool is_placed_ = false;             // place() was called
   std::vector<VertexColour> colours_;  // of the vertices, or empty
   MemoryBudget::Reservation colour_memory_;
   ReadOptions in_memory_ = {};  // options without space to spill, for vertices with colours
   const Paint by_vertices_ = {};
+  std::deque<CutOut> cuts_;  // the materials that cut_out() got, each once
+  bool is_placed_ = false;   // place() was called
   bool is_counted_ = false;  // the summary counts its triangles as undeformed or quantised
 
   // Of spilled positions.

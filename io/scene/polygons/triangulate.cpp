@@ -50,6 +50,12 @@ void Triangulator::grow() {
   corners_.reserve(capacity);
 }
 
+void Triangulator::grow_texture() {
+  // Half of them twice while they are moved.
+  texture_reservation_.resize(corners_.capacity() * sizeof(TexturePoint) * 3 / 2, kPurpose);
+  texture_.reserve(corners_.capacity());
+}
+
 void Triangulator::finish(BatchWriter& writer) {
   if (corners_.size() > 3 && project() && !is_convex()) {
     clip_ears(writer);
@@ -57,13 +63,18 @@ void Triangulator::finish(BatchWriter& writer) {
     fan(writer);
   }
   corners_.clear();
+  texture_.clear();
   colours_.clear();
 }
 
 void Triangulator::emit(size_t a, size_t b, size_t c, BatchWriter& writer) const {
-  if (colours_.empty()) return writer.add(corners_[a], corners_[b], corners_[c]);
-  writer.add_painted({{corners_[a], corners_[b], corners_[c]}}, TextureCorners(),
-                     {colours_[a], colours_[b], colours_[c]});
+  if (texture_.empty() && colours_.empty())
+    return writer.add(corners_[a], corners_[b], corners_[c]);
+  const Triangle triangle{{corners_[a], corners_[b], corners_[c]}};
+  TextureCorners texture{};
+  if (!texture_.empty()) texture = {texture_[a], texture_[b], texture_[c]};
+  if (colours_.empty()) return writer.add_cut(triangle, texture);
+  writer.add_painted(triangle, texture, {colours_[a], colours_[b], colours_[c]});
 }
 
 void Triangulator::fan(BatchWriter& writer) const {

@@ -40,7 +40,10 @@ class Triangulator {
 
   // `path`: of the scene, for an Error. `steps`: max per corner of a polygon.
   Triangulator(MemoryBudget* budget, std::string path, uint64_t steps = kStepsPerCorner)
-      : path_(std::move(path)), steps_(steps), reservation_(budget->reserve(0, kPurpose)) {}
+      : path_(std::move(path)),
+        steps_(steps),
+        reservation_(budget->reserve(0, kPurpose)),
+        texture_reservation_(budget->reserve(0, kPurpose)) {}
 
   // The corners of the next polygon, in order.
   void corner(const Point& p) {
@@ -50,6 +53,17 @@ class Triangulator {
   // The same with the colour of the corner: of all corners of a polygon, or none.
   void corner(const Point& p, const VertexColour& colour) {
     corner(p);
+    colours_.push_back(colour);
+  }
+  // The same, of a polygon whose corners are all in a texture that is cut out.
+  void corner(const Point& p, const TexturePoint& texture) {
+    corner(p);
+    if (texture_.capacity() < corners_.capacity()) grow_texture();
+    texture_.push_back(texture);
+  }
+  // The same with both.
+  void corner(const Point& p, const TexturePoint& texture, const VertexColour& colour) {
+    corner(p, texture);
     colours_.push_back(colour);
   }
   // Passes the triangles to `writer` and starts the next polygon; fewer than 3 corners give none.
@@ -62,6 +76,7 @@ class Triangulator {
   static constexpr const char* kPurpose = "corners of a polygon";
 
   void grow();
+  void grow_texture();
   bool project();
   bool is_convex() const;
   double turn(size_t a, size_t b, size_t c) const;
@@ -83,9 +98,10 @@ class Triangulator {
 
   const std::string path_;
   const uint64_t steps_;
-  MemoryBudget::Reservation reservation_;
+  MemoryBudget::Reservation reservation_, texture_reservation_;
   std::vector<Point> corners_;
   std::vector<VertexColour> colours_;  // of the corners, or empty
+  std::vector<TexturePoint> texture_;  // of the corners, or empty
   std::vector<glm::dvec2> flat_;       // the projection, counter-clockwise
   std::vector<uint32_t> prev_, next_;  // the ring of corners not clipped yet
   uint32_t left_ = 0;                  // their number

@@ -118,21 +118,32 @@ int option_arguments(std::string_view word) {
   return -1;
 }
 
-// The file name of a texture: what follows its options, with spaces in it.
-std::string_view texture_name(Words words) {
+// The options of a texture, then its file name, which may have spaces in it.
+MtlTexture texture_of(Words words) {
+  MtlTexture texture;
   for (;;) {
     Words rest = words;
-    int arguments = option_arguments(words.next());
-    if (arguments < 0) return rest.rest();
-    const bool numbers = arguments > 1;
-    for (; arguments > 0; --arguments) {
+    const std::string_view option = words.next();
+    const int arguments = option_arguments(option);
+    if (arguments < 0) {
+      texture.path = rest.rest();
+      return texture;
+    }
+    const std::string_view word = arguments == 1 ? words.next() : "";
+    for (int i = 0; arguments > 1 && i < arguments; ++i) {
       rest = words;
-      if (numbers && !number(words.next())) {
+      const auto value = number(words.next());
+      if (!value) {
         words = rest;
         break;
       }
-      if (!numbers) words.next();
+      if (option == "-o" && i < 2) texture.offset[i] = *value;
+      if (option == "-s" && i < 2) texture.scale[i] = *value;
     }
+    if (option == "-clamp") texture.clamp = word == "on";
+    const bool is_off = word == "off" && (option == "-blendu" || option == "-blendv");
+    const bool is_channel = option == "-imfchan" && word != "m";
+    if (option == "-t" || option == "-mm" || is_off || is_channel) texture.unknown = option;
   }
 }
 
@@ -150,12 +161,11 @@ class MtlReader {
   MtlReader(const File& obj, const MtlOptions& options) : options_(options), path_(obj.path()) {
     for (const std::string& path : mtl_paths(obj)) {
       if (!wants(path)) continue;
-      files_.push_back(path);
+      materials_.files.push_back(path);
       read(path);
     }
   }
 
-  const std::vector<std::string>& files() const { return files_; }
   MtlMaterials take() { return std::move(materials_); }
 
  private:
@@ -175,14 +185,18 @@ class MtlReader {
       if (word == "Kd") {
         if (const auto diffuse = colour(words)) material->diffuse = diffuse;
       }
-      if (word != "map_Kd") return;
-      const std::string_view name = texture_name(words);
-      if (name.empty()) return;
-      std::string texture = texture_path(path, std::string(name));
-      if (!wants(texture)) return;
-      count(texture.size());
-      material->texture = std::move(texture);
+      if (word == "d") material->dissolve = number(words.next()).value_or(material->dissolve);
+      if (word == "map_Kd") set(texture_of(words), path, &material->texture);
+      if (word == "map_d") set(texture_of(words), path, &material->mask);
     });
+  }
+
+  void set(MtlTexture texture, const std::string& mtl, std::unique_ptr<MtlTexture>* out) {
+    if (texture.path.empty()) return;
+    texture.path = texture_path(mtl, texture.path);
+    texture.is_outside = !wants(texture.path);
+    count(sizeof texture + texture.path.size());
+    *out = std::make_unique<MtlTexture>(std::move(texture));
   }
 
   MtlMaterial& named(std::string_view name) {
@@ -197,8 +211,7 @@ class MtlReader {
 
   const MtlOptions& options_;
   const std::string& path_;  // of the .obj file
-  std::vector<std::string> files_;
-  MtlMaterials materials_{{}, options_.budget->reserve(0, "materials of .mtl files")};
+  MtlMaterials materials_{{}, {}, options_.budget->reserve(0, "materials of .mtl files")};
 };
 
 }  // namespace
@@ -207,18 +220,36 @@ MtlMaterials read_mtl(const File& obj, const MtlOptions& options) {
   return MtlReader(obj, options).take();
 }
 
+bool is_unread_mtl(const File& obj, std::string_view name, const MtlMaterials& materials) {
+  const std::string path = (std::filesystem::path(obj.path()).parent_path() / name).string();
+  return is_file(path) && std::ranges::find(materials.files, path) == materials.files.end();
+}
+
+const MtlTexture* cutting_texture(const std::string& name, const MtlMaterial& material,
+                                  const NameFilter& names) {
+  const bool is_named = names.cuts_out(name);  // in any case: it records matches
+  if (material.mask) return material.mask.get();
+  return is_named ? material.texture.get() : nullptr;
+}
+
 std::vector<std::string> mtl_files(const File& obj, const MtlOptions& options) {
-  MtlReader reader(obj, options);
-  std::vector<std::string> paths = reader.files();
+  const MtlMaterials materials = read_mtl(obj, options);
+  std::vector<std::string> paths = materials.files;
   std::set<std::string> textures;
-  for (const auto& [name, material] : reader.take().by_name) textures.insert(material.texture);
+  const auto add = [&](const MtlTexture* texture) {
+    if (texture != nullptr && !texture->is_outside) textures.insert(texture->path);
+  };
+  for (const auto& [name, material] : materials.by_name) {
+    if (options.colours) add(material.texture.get());
+    if (options.cut_outs != nullptr) add(cutting_texture(name, material, *options.cut_outs));
+  }
   std::copy_if(textures.begin(), textures.end(), std::back_inserter(paths), is_file);
   return paths;
 }
 
 std::optional<Colour> colour_of(const MtlMaterial& material, ImageMeans* images) {
-  if (material.texture.empty()) return material.diffuse;
-  const std::optional<ImageMean> mean = images->mean_of_file(material.texture);
+  if (!material.texture || material.texture->is_outside) return material.diffuse;
+  const std::optional<ImageMean> mean = images->mean_of_file(material.texture->path);
   if (!mean) return material.diffuse;
   const Colour kd = material.diffuse.value_or(Colour{255, 255, 255});
   const auto factor = [](uint8_t code) {

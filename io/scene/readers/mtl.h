@@ -3,23 +3,35 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "io/colour.h"
 #include "io/scene/decoders/image.h"
+#include "io/scene/mesh/name_filter.h"
 #include "streaming/file/file.h"
 
 namespace svdag {
 
+struct MtlTexture {
+  std::string path;
+  bool is_outside = false;                       // of the folder of the .obj file, and not allowed
+  double scale[2] = {1, 1}, offset[2] = {0, 0};  // -s, -o: a coordinate is scaled, then moved
+  bool clamp = false;                            // -clamp on
+  std::string unknown;  // an option that changes the alpha, but is not followed; empty: none
+};
+
 struct MtlMaterial {
-  std::optional<Colour> diffuse;  // Kd, which is sRGB
-  std::string texture;            // path of map_Kd; empty: none
+  std::optional<Colour> diffuse;              // Kd, which is sRGB
+  double dissolve = 1;                        // d
+  std::unique_ptr<MtlTexture> texture, mask;  // map_Kd, map_d; null: none
 };
 
 struct MtlMaterials {
   std::map<std::string, MtlMaterial, std::less<>> by_name;
+  std::vector<std::string> files;    // paths of the .mtl files
   MemoryBudget::Reservation memory;  // for them
 };
 
@@ -27,11 +39,21 @@ struct MtlOptions {
   MemoryBudget* budget = nullptr;
   bool allow_outside = false;    // also .mtl files and textures outside the folder of the .obj file
   ImageMeans* images = nullptr;  // if given, it notes what was left out
+  // Of mtl_files(): the textures that colour, and those that cut materials out, unless null.
+  bool colours = true;
+  const NameFilter* cut_outs = nullptr;
 };
 
 // The .mtl files are those named by `mtllib` in the first 64 KiB of `obj`, beside it, as far as
 // they exist. What cannot be read in them is as if it were missing.
 MtlMaterials read_mtl(const File& obj, const MtlOptions& options);
+
+// Whether a line `mtllib NAME` names a file that exists, but is none of them.
+bool is_unread_mtl(const File& obj, std::string_view name, const MtlMaterials& materials);
+
+// What cuts a material out: its map_d, or, if `names` has the name, its map_Kd; null: nothing.
+const MtlTexture* cutting_texture(const std::string& name, const MtlMaterial& material,
+                                  const NameFilter& names);
 
 // Paths of these .mtl files and of the textures that they name, as far as they exist.
 std::vector<std::string> mtl_files(const File& obj, const MtlOptions& options);

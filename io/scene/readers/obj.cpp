@@ -1,19 +1,25 @@
 // Wavefront OBJ: polygons and groups, in one pass.
 //
 // Vertices have colours if the first one has (`v x y z r g b`, in sRGB by custom).
-// A face may use the vertices that precede it, counted from 1, or backwards from -1. Texture
-// coordinates and normals are skipped; free-form curves and surfaces, lines and points
-// are counted. Unknown statements are an Error: what they define would be missing. Zero bytes may
-// follow the last line (ZBrush), but not hide lines. A face
-// belongs to the last `o`, to all names of the last `g` and to the last `usemtl`: it is selected if
-// none of these is excluded and one of them is included.
+// A face may use the vertices that precede it, counted from 1, or backwards from -1. Normals are
+// skipped, and texture coordinates if no material is cut out (obj_cut_out.h); free-form curves and
+// surfaces, lines and points are counted. Unknown statements are an Error: what they define would
+// be missing. Zero bytes may follow the last line (ZBrush), but not hide lines. A face belongs to
+// the last `o`, to all names of the last `g` and to the last `usemtl`: it is selected if none of
+// these is excluded and one of them is included.
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "io/scene/polygons/mesh_writer.h"
 #include "io/scene/readers/mtl.h"
+#include "io/scene/readers/obj_cut_out.h"
 #include "io/scene/readers/obj_plain.h"
 #include "io/scene/readers/text_scan.h"
 
@@ -21,10 +27,10 @@ namespace svdag {
 namespace {
 
 // Statements that define no shape, or only its appearance.
-constexpr std::array<std::string_view, 27> kSkipped = {
-    "vt",       "vn",       "vw",   "s",   "mtllib", "vp",         "mg",        "lod",   "usemap",
-    "maplib",   "bevel",    "t",    "deg", "bmat",   "step",       "cstype",    "parm",  "end",
-    "c_interp", "d_interp", "hole", "con", "trim",   "shadow_obj", "trace_obj", "ctech", "stech"};
+constexpr std::array<std::string_view, 25> kSkipped = {
+    "vn",   "vw",  "s",    "vp",         "mg",        "lod",   "usemap", "maplib",   "bevel",
+    "t",    "deg", "bmat", "step",       "cstype",    "parm",  "end",    "c_interp", "d_interp",
+    "hole", "con", "trim", "shadow_obj", "trace_obj", "ctech", "stech"};
 constexpr std::array<std::string_view, 2> kPointsAndLines = {"l", "p"};
 constexpr std::array<std::string_view, 5> kFreeForm = {"curv", "curv2", "surf", "sp", "scrv"};
 constexpr uint64_t kMaxZeros = 16;  // at the end of a file
@@ -39,17 +45,47 @@ uint64_t end_of_text(const File& file) {
   return end > from && tail[size_t(end - 1 - from)] == '\n' ? end : file.size();
 }
 
+// The coordinates of `vt` statements, in reserved memory.
+class TextureCoordinates {
+ public:
+  explicit TextureCoordinates(MemoryBudget* budget) : memory_(budget->reserve(0, kPurpose)) {}
+
+  void add(const TexturePoint& p) {
+    if (points_.size() == points_.capacity()) {
+      const size_t old = points_.capacity(), grown = std::max<size_t>(1024, 2 * old);
+      memory_.resize((old + grown) * sizeof p, kPurpose);  // both while they are moved
+      points_.reserve(grown);
+      memory_.resize(grown * sizeof p, kPurpose);
+    }
+    points_.push_back(p);
+  }
+  uint64_t size() const { return points_.size(); }
+  const TexturePoint& operator[](uint64_t i) const { return points_[size_t(i)]; }
+
+ private:
+  static constexpr const char* kPurpose = "texture coordinates of cut-outs";
+
+  MemoryBudget::Reservation memory_;
+  std::vector<TexturePoint> points_;
+};
+
 class ObjReader {
  public:
   ObjReader(const File& file, const ReadOptions& options, MeshWriter* out)
       : options_(options),
+        file_(file),
         file_bytes_(file.size()),
         stream_(file, 0, end_of_text(file)),
         scanner_(&stream_, {'#', true}),
+        texture_(options.budget),
         out_(*out) {
-    if (options.images != nullptr)
+    if (options.images != nullptr || options.alpha != nullptr)
       materials_ = read_mtl(file, {options.budget, options.allow_outside, options.images});
     out_.begin(MeshWriter::Precision::kDouble, file.size());
+    if (options.alpha == nullptr) return;
+    for (const auto& [name, material] : materials_.by_name)
+      is_textured_ |= cutting_texture(name, material, *options.names) != nullptr;
+    if (is_textured_) out_.count_cut_outs();
   }
 
   LeftOut read() {
@@ -71,11 +107,11 @@ class ObjReader {
       Point p;
       stop = read_plain_vertex(text.substr(2), &p);
       if (stop != nullptr) out_.vertex(p);
-    } else if (text.starts_with("f ") && wanted_) {
+    } else if (text.starts_with("f ") && wanted_ && cut_ == nullptr) {
       PlainFace face;
       stop = read_plain_face(text.substr(2), out_.vertices(), &face);
       if (stop != nullptr) add(face);
-    } else if (text.starts_with("vt ") || text.starts_with("vn ")) {
+    } else if ((text.starts_with("vt ") && !is_textured_) || text.starts_with("vn ")) {
       stop = text.data() + 2;
     }
     if (stop == nullptr) return false;
@@ -104,6 +140,12 @@ class ObjReader {
     } else if (statement == "usemtl") {
       material_ = scanner_.rest_of_line();
       choose();
+    } else if (statement == "vt") {
+      if (is_textured_) read_texture_coordinate();
+    } else if (statement == "mtllib") {
+      if (options_.alpha != nullptr)
+        left_out_.add(Omission::kMaterialFiles,
+                      is_unread_mtl(file_, scanner_.rest_of_line(), materials_));
     } else {
       count_skipped(statement);
     }
@@ -138,8 +180,59 @@ class ObjReader {
     out_.vertex(p, colour);
   }
 
+  void read_texture_coordinate() {
+    TexturePoint p{scanner_.number(), 0};
+    if (!scanner_.at_line_end()) p.v = scanner_.number();
+    texture_.add(p);
+  }
+
+  // Of a material that is cut out: whole if it has no texture coordinates.
+  void read_cut_face() {
+    bool is_first = true, has_texture = false;
+    while (!scanner_.at_line_end()) {
+      const uint64_t index = vertex(scanner_.integer('/'));
+      std::optional<TexturePoint> place;
+      if (!scanner_.at_word_end()) {
+        skip_slash();
+        if (!scanner_.at_word_end() && scanner_.visible().front() != '/')
+          place = texture_point(scanner_.integer('/'));
+        if (!scanner_.at_word_end()) skip_references();
+      }
+      if (std::exchange(is_first, false)) {
+        has_texture = place.has_value();
+        if (!has_texture && !std::exchange(is_untextured_, true)) left_out_.add(Omission::kCutOuts);
+        cut_by(has_texture ? cut_ : nullptr);
+      }
+      if (place.has_value() != has_texture)
+        scanner_.fail("has a face with texture coordinates at some of its corners only");
+      place ? out_.corner(index, *place) : out_.corner(index);
+    }
+    out_.end_polygon();
+  }
+
+  void skip_slash() {
+    bool skipped = false;
+    scanner_.skip_while([&](char c) { return c == '/' && !std::exchange(skipped, true); });
+  }
+
+  TexturePoint texture_point(int64_t index) {
+    const uint64_t count = texture_.size();
+    const uint64_t i = index < 0 ? count + uint64_t(index) : uint64_t(index) - 1;
+    if (i >= count)
+      scanner_.fail("has a face with texture coordinate " + std::to_string(index) + ", but " +
+                    std::to_string(count) + " precede it");
+    const TexturePoint p = cut_->place(texture_[i].u, texture_[i].v);
+    const auto is_near = [](double x) { return std::abs(x) < kMaxTextureCoordinate; };
+    if (!is_near(p.u) || !is_near(p.v))
+      scanner_.fail(
+          "has a texture coordinate of a cut-out that is NaN, infinite or beyond 2^40 texels "
+          "(--no-cutouts bakes materials whole)");
+    return p;
+  }
+
   void read_face() {
     if (!wanted_) return;
+    if (cut_ != nullptr) return read_cut_face();
     while (!scanner_.at_line_end()) {
       out_.corner(vertex(scanner_.integer('/')));
       if (!scanner_.at_word_end()) skip_references();
@@ -186,16 +279,45 @@ class ObjReader {
     if (mesh != mesh_) out_.mesh(mesh);
     mesh_ = mesh;
     const auto material = materials_.by_name.find(material_);
-    out_.material(material_, wanted_ && material != materials_.by_name.end()
+    const bool is_known = wanted_ && material != materials_.by_name.end();
+    out_.material(material_, is_known && options_.images != nullptr
                                  ? colour_of(material->second, options_.images)
                                  : std::nullopt);
+    cut_ = is_known && options_.alpha != nullptr ? cut_of(material->second) : nullptr;
+    if (cut_ == nullptr) cut_by(nullptr);
+    is_untextured_ = false;
+  }
+
+  void cut_by(const ObjCutOut* cut) {
+    if (cut == drawn_) return;
+    drawn_ = cut;
+    out_.cut_out(cut == nullptr ? nullptr : &cut->cut);
+  }
+
+  // What cuts material_ out; null: it is whole.
+  const ObjCutOut* cut_of(const MtlMaterial& material) {
+    const auto [at, is_new] = cuts_.try_emplace(material_);
+    std::optional<ObjCutOut>& cut = at->second;
+    if (is_new) {
+      cut = cut_out_of(material_, material, *options_.names, file_.path(), options_.alpha);
+      if (cut && cut->cut.is_opaque()) cut.reset();
+      if (!cut && material.dissolve < 1) left_out_.add(Omission::kCutOuts);
+    }
+    return cut ? &*cut : nullptr;
   }
 
   const ReadOptions& options_;
+  const File& file_;
   uint64_t file_bytes_;
   MtlMaterials materials_;
   ByteStream stream_;
   TextScanner scanner_;
+  bool is_textured_ = false;  // a material of the .mtl files is cut out
+  TextureCoordinates texture_;
+  std::map<std::string, std::optional<ObjCutOut>> cuts_;  // by material; none: it is whole
+  const ObjCutOut* cut_ = nullptr;                        // of material_; null: it is whole
+  const ObjCutOut* drawn_ = nullptr;                      // that out_ has
+  bool is_untextured_ = false;  // a face since choose() lacks its texture coordinates
   MeshWriter& out_;
   // What earlier lines define for later ones.
   std::string object_;
