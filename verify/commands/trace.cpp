@@ -58,7 +58,7 @@ uint64_t load_triangles(TriangleTracer* tracer, JudgedScene* judged, const Grid&
   const LatticeBox selection = grid.closed(grid.selection);
   uint64_t near = 0;
   judged->progress.phase("reading the scene", 0);
-  stream_snapped(judged->scene, grid, nullptr,
+  stream_snapped(judged->scene, grid, tracer->cuts(),
                  [&](std::span<const LatticeTriangle> triangles, const TriangleBatch& batch) {
                    for (const LatticeTriangle& t : triangles) near += selection.meets(box_of(t));
                    tracer->add(triangles, grid.fraction());
@@ -100,6 +100,8 @@ TraceJudgement trace(const TraceConfig& config, const DagFile& file) {
                         &judged.budget);
   const uint64_t of_layers = file.layers().empty() ? 0 : judgement.counts.triangles;
   const auto reserved = judged.budget.reserve(of_layers * sizeof(uint32_t), "layers of triangles");
+  const auto records = judged.budget.reserve(judgement.counts.cut * sizeof(CutRecord),
+                                             "textures of cut-out triangles");
   std::vector<uint32_t> layer_of;
   layer_of.reserve(of_layers);
   judgement.near = load_triangles(&tracer, &judged, grid, file.layers(), &layer_of);

@@ -42,8 +42,8 @@ SnapCounts stream_snapped(const Scene& scene, const Grid& grid, CutScene* cuts,
     snapped.clear();
     if (batch.cut != nullptr && cuts == nullptr)
       fail_usage("the material \"" + std::string(batch.material) +
-                 "\" is cut out, which only mesh --judge integer and cgal judge (--no-cutouts "
-                 "judges a bake with it whole)");
+                 "\" is cut out, which OpenVDB cannot judge: choose --judge integer or cgal "
+                 "(--no-cutouts judges a bake with it whole)");
     const uint32_t material =
         batch.cut != nullptr ? material_number(*batch.cut, &cuts->cut_outs) : 0;
     for (size_t k = 0; k < batch.triangles.size(); ++k) {

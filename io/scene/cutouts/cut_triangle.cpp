@@ -104,9 +104,11 @@ CutPlane::CutPlane(const CutOut& cut, const CutTriangle& t, int64_t voxel) noexc
   // Gradients: of u, ((u1 - u0) e2 x n + (u2 - u0) n x e1) / n.n with edges e from v0, n = e1 x e2.
   // Lost of their digits are 2 log2 of the sine between the edges, which is not less than 0.01.
   constexpr double kThinnest = 1e-4;  // the square of the sine between the edges
-  TexturePolygon corners;
-  for (const TexturePoint& p : t.corners) corners.add(p);
-  box_ = bounds_of(corners);
+  box_ = {t.corners[0], t.corners[0]};
+  for (const TexturePoint& p : t.corners) {
+    box_.low = {std::min(box_.low.u, p.u), std::min(box_.low.v, p.v)};
+    box_.high = {std::max(box_.high.u, p.u), std::max(box_.high.v, p.v)};
+  }
   const auto& v = t.triangle.v;
   double e1[3], e2[3], n[3];
   double n2 = 0, l1 = 0, l2 = 0;

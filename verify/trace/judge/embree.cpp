@@ -12,7 +12,7 @@ namespace svdag {
 namespace {
 
 constexpr uint64_t kBytesPerTriangle =
-    sizeof(VoxelTriangle) + 9 * sizeof(float) + 3 * sizeof(uint32_t);
+    sizeof(VoxelTriangle) + 9 * sizeof(float) + 4 * sizeof(uint32_t);
 
 // Reserves what Embree allocates. If the budget rejects an allocation, the build fails and
 // rethrow() throws the budget's Error.
@@ -75,7 +75,8 @@ void recheck_hit(const RTCFilterFunctionNArguments* arguments) {
   const Crossing crossing = cross_plane(*query.ray, query.tracer->triangles()[id]);
   const double doubt = query.tracer->doubt();
   if (!crossing.found || crossing.inside < -doubt || crossing.t < query.begin ||
-      crossing.t > query.end) {
+      crossing.t > query.end ||
+      !query.tracer->is_opaque(id, query.ray->origin + query.ray->direction * crossing.t)) {
     arguments->valid[0] = 0;
     return;
   }
@@ -143,6 +144,10 @@ void TriangleTracer::add(std::span<const LatticeTriangle> triangles, int fractio
   for (const LatticeTriangle& lattice : triangles) {
     const VoxelTriangle t = in_voxels(lattice, fraction);
     triangles_.push_back(t);
+    if (lattice.cut != 0) {
+      cut_.resize(triangles_.size() - 1);
+      cut_.push_back(lattice.cut);
+    }
     for (const Vec3& v : t.v) {
       for (int a = 0; a < 3; ++a) {
         reach_ = std::max(reach_, std::abs(v[a] - middle_[a]));
@@ -150,6 +155,13 @@ void TriangleTracer::add(std::span<const LatticeTriangle> triangles, int fractio
       }
     }
   }
+}
+
+bool TriangleTracer::is_opaque(uint32_t triangle, const Vec3& point) const {
+  if (triangle >= cut_.size() || cut_[triangle] == 0) return true;
+  const CutRecord& record = cuts_.records[cut_[triangle] - 1];
+  return is_surely_opaque(cuts_.cut_outs[record.material], record.corners, triangles_[triangle],
+                          point, doubt());
 }
 
 void TriangleTracer::build() {

@@ -7,6 +7,9 @@
 // snapped triangle (triangle.h), before it can hide another; so coincident triangles are not lost.
 // Distances are computed in double from the snapped triangles; Embree only lists the candidates.
 //
+// A triangle that is cut out counts where it is opaque: hits that are transparent, or so near to it
+// that the doubles do not tell, are passed through.
+//
 // Hits that Embree's floats miss stay missed: near a silhouette, within float_error() of an edge. A
 // judge without misses would need a traversal of our own, which is what is being judged.
 //
@@ -18,6 +21,7 @@
 #include <span>
 #include <vector>
 
+#include "io/scene/cutouts/cut_records.h"
 #include "streaming/memory/memory_budget.h"
 #include "verify/trace/judge/voxel_triangle.h"
 
@@ -40,11 +44,15 @@ class TriangleTracer {
   ~TriangleTracer();
   TriangleTracer(const TriangleTracer&) = delete;
 
+  // The records of triangles that are cut out, for those that are added.
+  CutScene* cuts() { return &cuts_; }
   void add(std::span<const LatticeTriangle> triangles, int fraction);
   // Builds Embree's tree: after the last add(), before the first query. Error: kMemory.
   void build();
 
   std::span<const VoxelTriangle> triangles() const { return triangles_; }
+  // Whether a point of a triangle surely is opaque.
+  bool is_opaque(uint32_t triangle, const Vec3& point) const;
   const Vec3& middle() const { return middle_; }
   // Error bound of Embree's floats, in voxels: 2^-20 of the extent.
   double float_error() const { return 0x1p-19 * reach_; }
@@ -63,6 +71,8 @@ class TriangleTracer {
   double reach_ = 1;  // largest coordinate relative to the middle
   MemoryBudget::Reservation reservation_;
   std::vector<VoxelTriangle> triangles_;
+  CutScene cuts_;
+  std::vector<uint32_t> cut_;  // LatticeTriangle::cut; shorter if the rest is whole
   std::unique_ptr<Scene> scene_;
 };
 

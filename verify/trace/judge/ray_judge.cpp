@@ -141,8 +141,10 @@ RayJudgement RayJudge::judge_surface(uint64_t count, Executor& executor, Progres
   if (tracer_.triangles().empty()) return {};
   return judge_all(count, executor, progress, [&](uint64_t i, RayJudgement* result) {
     RayRandom random(~config_.seed, i);
-    const Vec3 point = sampler_.draw(random).point;
-    if (is_inside(config_.selection, point, 0)) judge_point(i, point, result);
+    const TriangleSampler::Sample sample = sampler_.draw(random);
+    if (is_inside(config_.selection, sample.point, 0) &&
+        tracer_.is_opaque(sample.triangle, sample.point))
+      judge_point(i, sample.point, result);
   });
 }
 

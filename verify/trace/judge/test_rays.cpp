@@ -50,7 +50,7 @@ TriangleSampler::Sample TriangleSampler::draw(RayRandom& random) const {
   }
   const Vec3 a = t.v[1] - t.v[0], b = t.v[2] - t.v[0], normal = cross(a, b);
   const bool flat = dot(normal, normal) == 0;
-  return {t.v[0] + a * u + b * v, flat ? Vec3{{1, 0, 0}} : normalized(normal)};
+  return {t.v[0] + a * u + b * v, flat ? Vec3{{1, 0, 0}} : normalized(normal), uint32_t(index)};
 }
 
 TestRays::TestRays(const VoxelBounds& box, const TriangleTracer& tracer,

@@ -45,6 +45,7 @@ class TriangleSampler {
   struct Sample {
     Vec3 point;
     Vec3 normal;  // unit length; an axis if the triangle has no area
+    uint32_t triangle;
   };
 
   TriangleSampler(std::span<const VoxelTriangle> triangles, MemoryBudget* budget);

@@ -52,6 +52,27 @@ Crossing cross_plane(const Ray& ray, const VoxelTriangle& triangle) {
   return result;
 }
 
+bool is_surely_opaque(const CutOut& cut, const TextureCorners& texture,
+                      const VoxelTriangle& triangle, const Vec3& point, double doubt) {
+  const Vec3 e1 = triangle.v[1] - triangle.v[0], e2 = triangle.v[2] - triangle.v[0];
+  const Vec3 normal = cross(e1, e2), to = point - triangle.v[0];
+  const double square = dot(normal, normal);
+  if (square == 0) return false;
+  const double b = dot(cross(to, e2), normal) / square, c = dot(cross(e1, to), normal) / square;
+  // How far a coordinate changes in a voxel, at most.
+  const double b_slope = length(e2) / std::sqrt(square), c_slope = length(e1) / std::sqrt(square);
+  const auto place = [&](double TexturePoint::*axis, double* half) {
+    const double first = texture[0].*axis, by_b = texture[1].*axis - first,
+                 by_c = texture[2].*axis - first;
+    *half = doubt * (std::abs(by_b) * b_slope + std::abs(by_c) * c_slope);
+    return first + b * by_b + c * by_c;
+  };
+  double half_u, half_v;
+  const TexturePoint at = {place(&TexturePoint::u, &half_u), place(&TexturePoint::v, &half_v)};
+  OpacityMap::Blocks blocks;
+  return opacity_near(cut, at, half_u, half_v, &blocks) == Opacity::kOpaque;
+}
+
 Ray float_ray(const Ray& ray, const Vec3& middle) {
   const Vec3 direction = normalized(ray.direction);
   Ray result;

@@ -6,6 +6,7 @@
 // distance.
 #pragma once
 
+#include "io/scene/cutouts/cut_out.h"
 #include "io/triangle.h"
 #include "verify/trace/kernel/vector.h"
 
@@ -25,6 +26,11 @@ struct Crossing {
   double cosine = 0;   // of the angle between ray and normal, > 0
 };
 Crossing cross_plane(const Ray& ray, const VoxelTriangle& triangle);
+
+// Whether the point of the plane of a cut-out triangle, and all points within `doubt` voxels of it,
+// are opaque. A triangle without area has no such point.
+bool is_surely_opaque(const CutOut& cut, const TextureCorners& texture,
+                      const VoxelTriangle& triangle, const Vec3& point, double doubt);
 
 // Distance from a point to the closed triangle, which may be a segment or a point.
 double distance(const Vec3& point, const VoxelTriangle& triangle);

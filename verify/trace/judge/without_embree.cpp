@@ -17,6 +17,9 @@ TriangleTracer::TriangleTracer(const Vec3& middle, uint64_t, size_t, MemoryBudge
 TriangleTracer::~TriangleTracer() = default;
 void TriangleTracer::add(std::span<const LatticeTriangle>, int) {}
 void TriangleTracer::build() {}
+bool TriangleTracer::is_opaque(uint32_t, const Vec3&) const {
+  return true;
+}
 std::optional<TriangleHit> TriangleTracer::closest(const Ray&, double, double) const {
   return {};
 }
