@@ -214,6 +214,7 @@ $ svdag help
 |   info                      Describe a .svdag, a run, a plan or a scene
 |   query                     Look up points in a .svdag
 |   edit                      Combine, crop or coarsen .svdag files
+|   colour                    Add the colours of its scene to a .svdag
 |   convert                   Write a .svdag in another layout, or one of its
 |                             layers
 |   pack                      Compress a .svdag for shipping

@@ -59,6 +59,7 @@ LINES = {"svdag build": "city.ply -o other.svdag -r 64", "svdag batch": "city.li
          "svdag plan": "city.ply -o other.plan -r 64 --shards 2",
          "svdag info": "city.ply", "svdag merge": "a.run -o merged.svdag", "svdag edit": "city.svdag -o edited.svdag --level 4",
          "svdag pack": "city.svdag -o city.pack", "svdag unpack": "city.pack -o unpacked.svdag",
+         "svdag colour": "city.svdag city.ply -o painted.svdag",
          "svdag convert": "city.svdag -o converted.svdag", "svdag submit": "missing.plan", "svdag export": "city.svdag -o out.vdb", "svdag import": "city.npz -o in.svdag",
          "svdag-verify mesh": "city.svdag city.ply", "svdag-verify render": "city.svdag -o city.png --size 16x16",
          "svdag-verify report": "city.svdag city.json -o city.html --size 16x16",
