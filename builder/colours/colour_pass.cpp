@@ -227,9 +227,10 @@ class ColourPass {
   fail_input(file.path(), "does not belong to this scene: " + what);
 }
 
-// The scene must reach as far as the voxels do.
+// The scene must reach as far as the voxels do, unless they are those of a solid that ends at the
+// selection.
 void check_bounds(const DagFile& file, const PaintedScene& scene) {
-  if (file.view().empty()) return;
+  if (file.view().empty() || (is_solid(file.rule()) && file.grid().bounded)) return;
   if (scene.is_empty) fail_foreign(file, "no triangle of the scene meets its grid");
   const Lattice lattice(file.grid());
   const VoxelBox occupied = occupied_bounds(file.view());

@@ -64,7 +64,9 @@ void PartWalker::end_cube(const CoveredNode& node, const CubeSum& sum,
 bool PartWalker::ends(const PreparedTriangles& triangles, const CoveredNode& node,
                       const TriangleList& list, std::vector<CubeColour>* out) {
   if (list.empty()) return untouched_->add(node, out), true;
-  if (is_solid_ || node.cube.level == level_) return false;
+  if (is_solid_ || node.cube.level < std::min(kComparedLevel, level_ - 1) ||
+      node.cube.level == level_)
+    return false;
   const uint64_t colour = triangles.one_colour_of(list);
   if (colour == PreparedTriangles::kVarying) return false;
   out->push_back({morton(node.cube.coordinate),

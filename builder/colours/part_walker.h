@@ -26,6 +26,10 @@ struct WalkCounts {
 
 class PartWalker {
  public:
+  // The walk does not end above this level, so that there each covered cube is seen to have a
+  // triangle, also in scenes of one colour.
+  static constexpr int kComparedLevel = 7;
+
   PartWalker(const DagView& dag, const Grid& grid, Rule rule, int level, UntouchedNodes* untouched);
 
   void walk(const PreparedTriangles& triangles, Part* part);

@@ -136,8 +136,9 @@ struct ConvertCommand {
   std::string file;
   std::string output_path;
   Selection selection;
-  uint64_t memory = 0;  // bytes; 0: half of the machine
-  std::string scratch;  // folder for data that does not fit in memory; empty: the output's
+  bool keeps_layout = false;  // that of the file instead of the selection's
+  uint64_t memory = 0;        // bytes; 0: half of the machine
+  std::string scratch;        // folder for data that does not fit in memory; empty: the output's
   OutputConfig output;
 };
 

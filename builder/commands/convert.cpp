@@ -35,10 +35,12 @@ int run(const ConvertCommand& config) {
   if (file.has_colours() && !config.selection.without_colours &&
       !keeps_colours(file, config.selection))
     report_dropped_colours(config.file);
-  const Header header = write_selection(file, config.selection, path, room);
+  Selection selection = config.selection;
+  if (config.keeps_layout) selection.layout = Layout(file.header().layout);
+  const Header header = write_selection(file, selection, path, room);
   if (!config.output.quiet)
     std::printf("%s: %s, %s, %.1f %% of %s\n  content hash %s\n", printable(path).c_str(),
-                layout_name(config.selection.layout), format_bytes(header.file_bytes).c_str(),
+                layout_name(selection.layout), format_bytes(header.file_bytes).c_str(),
                 100 * double(header.file_bytes) / double(before), printable(config.file).c_str(),
                 to_hex(header.content_hash).c_str());
   return int(ExitCode::kOk);

@@ -110,6 +110,8 @@ void add_convert(CLI::App* program, Command* command) {
     if (app->count("--layout") == 0 && config->selection.is_everything() &&
         !config->selection.without_colours)
       fail_usage("convert: give --layout, --layer, --level, --bounds or --no-colours");
+    if (app->count("--layout") == 0 && config->selection.without_colours)
+      config->keeps_layout = true;
     *command = *config;
   });
 }

@@ -76,7 +76,7 @@ class ChunkEncoder {
   std::vector<uint32_t> barrier_;  // [end]: the first colour after the last kNoColour before end
 };
 
-// All colours of a valid chunk, in order.
+// All colours of a valid chunk, in order. The word after the chunk must be readable.
 void decode_chunk(const uint32_t* words, std::span<uint32_t> colours);
 
 }  // namespace svdag

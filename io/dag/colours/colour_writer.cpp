@@ -90,6 +90,7 @@ class ColourParts {
 
 constexpr uint64_t kEncoderBytes = 4 << 20;  // of a worker
 constexpr size_t kChunksPerWorker = 16;      // that wait to be encoded
+constexpr uint64_t kBytesPerEncoder = kEncoderBytes + kChunksPerWorker * 2 * 4 * kChunkColours;
 
 // Encodes chunks on all workers and appends them in order.
 class ChunkQueue {
@@ -99,12 +100,11 @@ class ChunkQueue {
       : parts_(parts),
         directory_(directory),
         executor_(executor),
-        reserved_(budget->reserve(
-            executor->workers() * (kEncoderBytes + kChunksPerWorker * 2 * 4 * kChunkColours),
-            "chunks of colours")),
-        encoders_(executor->workers(), ChunkEncoder(uint32_t(uint64_t(error) * error /
-                                                             kColourErrorUnit / kColourErrorUnit))),
-        chunks_(executor->workers() * kChunksPerWorker) {}
+        encoders_(
+            encoders_within(*budget, executor->workers()),
+            ChunkEncoder(uint32_t(uint64_t(error) * error / kColourErrorUnit / kColourErrorUnit))),
+        chunks_(encoders_.size() * kChunksPerWorker),
+        reserved_(budget->reserve(encoders_.size() * kBytesPerEncoder, "chunks of colours")) {}
 
   // Takes the colours, and leaves other memory in their place.
   void add(uint64_t first, std::vector<uint32_t>* colours) {
@@ -115,9 +115,11 @@ class ChunkQueue {
   }
   void encode() {
     check_interrupt();
-    executor_->for_each(used_, [&](size_t worker, size_t i) {
-      chunks_[i].words.clear();
-      encoders_[worker].encode(chunks_[i].colours, &chunks_[i].words);
+    executor_->for_each(std::min(used_, encoders_.size()), [&](size_t, size_t encoder) {
+      for (size_t i = encoder; i < used_; i += encoders_.size()) {
+        chunks_[i].words.clear();
+        encoders_[encoder].encode(chunks_[i].colours, &chunks_[i].words);
+      }
     });
     for (size_t i = 0; i < used_; ++i) {
       const Chunk& chunk = chunks_[i];
@@ -129,6 +131,12 @@ class ChunkQueue {
   }
 
  private:
+  // As many as there are workers, but in the room that is left, and one in any case.
+  static size_t encoders_within(const MemoryBudget& budget, size_t workers) {
+    const uint64_t room = budget.limit() - std::min(budget.limit(), budget.used());
+    return size_t(std::clamp<uint64_t>(room / kBytesPerEncoder, 1, workers));
+  }
+
   struct Chunk {
     uint64_t entry = 0;
     std::vector<uint32_t> colours, words;
@@ -137,9 +145,9 @@ class ChunkQueue {
   ColourParts* parts_;
   ColourDirectory* directory_;
   Executor* executor_;
-  MemoryBudget::Reservation reserved_;
   std::vector<ChunkEncoder> encoders_;
   std::vector<Chunk> chunks_;
+  MemoryBudget::Reservation reserved_;
   size_t used_ = 0;
   uint64_t words_ = 0;  // of all chunks so far
 };

@@ -80,14 +80,27 @@ bool is_file(const std::string& path) {
   return std::filesystem::is_regular_file(path, error);
 }
 
+// The files of an mtllib: its whole rest if that is one, since names may have spaces, else each
+// word.
+std::vector<std::string> named_files(const std::filesystem::path& folder, std::string_view rest) {
+  std::vector<std::string> paths = {(folder / rest).string()};
+  if (is_file(paths[0])) return paths;
+  paths.clear();
+  Words words(rest);
+  for (std::string_view word = words.next(); !word.empty(); word = words.next())
+    paths.push_back((folder / word).string());
+  return paths;
+}
+
 // The .mtl files, each once.
 std::vector<std::string> mtl_paths(const File& obj) {
   std::vector<std::string> paths;
   const std::filesystem::path folder = std::filesystem::path(obj.path()).parent_path();
   for_each_line(obj, kHead, [&](std::string_view word, Words& words) {
     if (word != "mtllib") return;
-    const std::string path = (folder / words.rest()).string();
-    if (is_file(path) && std::ranges::find(paths, path) == paths.end()) paths.push_back(path);
+    for (const std::string& path : named_files(folder, words.rest())) {
+      if (is_file(path) && std::ranges::find(paths, path) == paths.end()) paths.push_back(path);
+    }
   });
   return paths;
 }
@@ -221,8 +234,10 @@ MtlMaterials read_mtl(const File& obj, const MtlOptions& options) {
 }
 
 bool is_unread_mtl(const File& obj, std::string_view name, const MtlMaterials& materials) {
-  const std::string path = (std::filesystem::path(obj.path()).parent_path() / name).string();
-  return is_file(path) && std::ranges::find(materials.files, path) == materials.files.end();
+  const std::filesystem::path folder = std::filesystem::path(obj.path()).parent_path();
+  return std::ranges::any_of(named_files(folder, name), [&](const std::string& path) {
+    return is_file(path) && std::ranges::find(materials.files, path) == materials.files.end();
+  });
 }
 
 const MtlTexture* cutting_texture(const std::string& name, const MtlMaterial& material,

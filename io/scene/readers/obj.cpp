@@ -169,7 +169,12 @@ class ObjReader {
     if (options_.paints == nullptr) return out_.vertex(p);
     std::array<double, 4> more;  // red, green and blue, after a weight if there are four
     size_t n = 0;
-    while (n < more.size() && !scanner_.at_line_end()) more[n++] = scanner_.number();
+    const auto has_number = [&] {
+      return !scanner_.at_line_end() &&
+             std::string_view("+-.0123456789").find(scanner_.visible().front()) !=
+                 std::string::npos;
+    };
+    while (n < more.size() && has_number()) more[n++] = scanner_.number();
     if (out_.vertices() == 0) {
       is_coloured_ = n >= 3;
       if (is_coloured_) out_.begin_coloured(MeshWriter::Precision::kDouble, file_bytes_);

@@ -107,9 +107,10 @@ class PlyBody {
     return false;
   }
 
-  // The linear light of a value of sRGB: a number of 0 .. 1, or a whole number of the type's range.
+  // The linear light of a value of sRGB: a number of 0 .. 1, or a whole number of the range of 16
+  // bits if the type has 16, else of 8.
   static uint16_t light_of_value(double value, PlyType type) {
-    const double most = !is_integer(type) ? 1 : size_of(type) == 1 ? 255 : 65535;
+    const double most = !is_integer(type) ? 1 : size_of(type) == 2 ? 65535 : 255;
     return light16_of_srgb(value / most);
   }
 

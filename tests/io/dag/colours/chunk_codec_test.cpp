@@ -17,7 +17,8 @@ std::vector<uint32_t> encoded(const std::vector<uint32_t>& colours, uint32_t max
   return words;
 }
 
-std::vector<uint32_t> decoded(const std::vector<uint32_t>& words, size_t count) {
+std::vector<uint32_t> decoded(std::vector<uint32_t> words, size_t count) {
+  words.push_back(0xa5a5a5a5);  // the next chunk, which may be read
   std::vector<uint32_t> colours(count);
   decode_chunk(words.data(), colours);
   return colours;
