@@ -23,11 +23,11 @@ std::optional<std::string> tiles_json(const TileCutter& cutter, uint64_t max_byt
     const std::string tile = tile_of_list(cutter, list, i + 1);
     tiles[i] = base64(std::as_bytes(std::span(tile)));
   });
-  std::string json = "{";
+  std::string text = "{";
   for (size_t i = 0; i < tiles.size(); ++i)
-    json += (i == 0 ? "\"" : ",\n\"") + std::to_string(i + 1) + "\":\"" + tiles[i] + "\"";
-  json += "}";
-  return json.size() <= max_bytes ? std::optional(json) : std::nullopt;
+    text += (i == 0 ? "\"" : ",\n\"") + std::to_string(i + 1) + "\":\"" + tiles[i] + "\"";
+  text += "}";
+  return text.size() <= max_bytes ? std::optional(text) : std::nullopt;
 }
 
 // Runs in the page.

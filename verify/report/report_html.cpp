@@ -205,8 +205,8 @@ class Page {
       row("bounds of the scene", box_text({point_of(bounds.at(0)), point_of(bounds.at(1))}));
   }
 
-  static Point point_of(const Json& json) {
-    return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+  static Point point_of(const Json& point) {
+    return {point.at(0).get<double>(), point.at(1).get<double>(), point.at(2).get<double>()};
   }
 
   static std::string box_text(const Box& box) {
@@ -370,13 +370,13 @@ class Page {
 
 // Parses an input that is about `file`.
 Json parse_input(const ReportInput& input, const DagFile& file) {
-  Json json = Json::parse(input.text, nullptr, false);
-  if (!json.is_object() || !json.contains("content_hash"))
+  Json parsed = Json::parse(input.text, nullptr, false);
+  if (!parsed.is_object() || !parsed.contains("content_hash"))
     fail_input(input.path, "is neither a report of svdag build nor a verdict of svdag-verify");
-  if (json["content_hash"] != hash_of(file))
+  if (parsed["content_hash"] != hash_of(file))
     fail_usage(input.path + ": is the report of another bake than " + file.path() +
                ": their content hashes differ");
-  return json;
+  return parsed;
 }
 
 }  // namespace
@@ -392,14 +392,14 @@ ReportPage report_html(const std::vector<ReportInput>& inputs, const DagFile& fi
   try {
     for (const ReportInput& input : inputs) {
       path = input.path;
-      Json json = parse_input(input, file);
-      if (json.contains("command")) {
-        page.ok = page.ok && is_ok(json);
-        verdicts.push_back(std::move(json));
+      Json parsed = parse_input(input, file);
+      if (parsed.contains("command")) {
+        page.ok = page.ok && is_ok(parsed);
+        verdicts.push_back(std::move(parsed));
         Page(Json(), {verdicts.back()}, file, stats, integrity).make({});  // complete?
       } else {
         if (!bake.is_null()) fail_usage(path + ": is a second report of the bake: give one");
-        bake = std::move(json);
+        bake = std::move(parsed);
         Page(bake, {}, file, stats, integrity).make({});
       }
     }
