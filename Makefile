@@ -104,7 +104,7 @@ test-python: deps
 	$(call install,$(PYTHON_PACKAGES))
 	@$(PYTHON) tests/python/run.py
 
-# Of the release build; only the module is compiled (a minute).
+# Of the release build; only the module is compiled.
 wheel: build
 	$(call install,$(PYTHON_PACKAGES))
 	@$(PYTHON) -m venv build/python/tools

@@ -31,9 +31,8 @@
 // * Which triangles meet Q matters where they have next to no area (a wall that touches the face
 //   of Q): a triangle with a >= 2^20 does, others and very large ones are decided in exact
 //   integers. So it does not depend on the descent, which is on the safe side.
-// * No area. If the a sum to 0, the colour is the mean of the colours at the points that are
-// nearest
-//   to Q's centre, weighted by their opacity. If nothing is opaque there either (what Q has of a
+// * No area. If the a sum to 0, the colour is the mean of the colours at the points nearest to
+//   Q's centre, weighted by their opacity. If nothing is opaque there either (what Q has of a
 //   cut-out is its edge), each has the colour of the finest level that is not transparent there.
 // * One colour. A cube is constant if all triangles that meet it have the same one colour.
 #pragma once

@@ -17,7 +17,7 @@ namespace svdag {
 int run(const ColourCommand& config) {
   const ColourFileConfig& colours = config.colours;
   CommandFiles files({colours.file});
-  for (const std::string& path : colours.scene.paths) files.read(path);
+  files.read(colours.scene.paths);
   read_buffers(colours.scene, colours.memory, &files);
   files.write(colours.output);
   require_dag_name(colours.output, false);

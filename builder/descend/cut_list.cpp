@@ -37,7 +37,8 @@ void Descent::settle_cuts(const Cube& cube, TriangleList* list) {
   const int64_t cell = int64_t(std::ldexp(cell_side_, grid_.fraction()));
   std::erase_if(*list, [&](ListedTriangle& entry) {
     if (entry.triangle->triangle.cut == 0) return false;
-    if (side<cell&& double(side)> entry.triangle->extent) return false;
+    // In a cube larger than the triangle, it is what it was in the cell.
+    if (side != cell && entry.triangle->extent < double(side)) return false;
     const Opacity opacity = cut_plane(entry.triangle).in_cube(corner, side);
     if (opacity == Opacity::kOpaque) entry.triangle = whole(entry.triangle);
     return opacity == Opacity::kTransparent;

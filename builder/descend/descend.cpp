@@ -61,7 +61,7 @@ void Descent::run(const Cube& cube, const TriangleList& list, const LayerWinding
   builder_->begin(cube);
   if (cuts_ != nullptr && has_cuts(list)) {
     whole_.clear();
-    known_cuts_.fill({});
+    known_cuts_.assign(256, {});
     TriangleList settled = list;
     settle_cuts(cube, &settled);
     node(cube, settled, {shared_sets(settled, windings), windings});

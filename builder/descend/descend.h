@@ -168,7 +168,7 @@ class Descent {
   const CutRecords* cuts_ = nullptr;
   // Of cut triangles of this cell: as they are where all of them is opaque.
   std::unordered_map<const TriangleSetup*, std::unique_ptr<TriangleSetup>> whole_;
-  std::array<KnownCut, 256> known_cuts_;  // direct-mapped, see cut_plane()
+  std::vector<KnownCut> known_cuts_;  // direct-mapped, see cut_plane()
 
   const MortonSet* done_;                           // null: nothing
   bool partly_done_ = false;                        // a part of the cell being baked is in done_

@@ -183,8 +183,7 @@ CutRecord BinReader::read_cut() {
   for (uint8_t& byte : bytes) byte = read_byte();
   std::memcpy(&record.corners, bytes.data(), bytes.size());
   for (const TexturePoint& p : record.corners) {
-    if (!(std::abs(p.u) < kMaxTextureCoordinate && std::abs(p.v) < kMaxTextureCoordinate))
-      reader_.fail_damaged();
+    if (!is_placeable(p)) reader_.fail_damaged();
   }
   return record;
 }

@@ -47,7 +47,7 @@ void add_scene_choice(CLI::App* app, SceneConfig* scene) {
       ->type_name("NAME");
   app->add_flag("--hidden", scene->hidden, "Include nodes that the file hides");
   app->add_flag("--no-cutouts{false}", scene->cut_outs,
-                "Take triangles whole whose material has transparent points (alphaMode MASK)");
+                "Take triangles whole whose material has transparent points (alphaMode MASK, map_d)");
   app->add_option_function<std::vector<std::string>>(
          "--cutout",
          [scene](const std::vector<std::string>& patterns) {

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -27,7 +28,11 @@ struct TexturePoint {
   auto operator<=>(const TexturePoint&) const = default;
 };
 using TextureCorners = std::array<TexturePoint, 3>;  // of a triangle
-constexpr double kMaxTextureCoordinate = 0x1p40;     // exclusive, and finite
+constexpr double kMaxTextureCoordinate = 0x1p40;     // exclusive
+// Whether a point is finite, and near enough for its texel to have a number.
+inline bool is_placeable(const TexturePoint& p) {
+  return std::abs(p.u) < kMaxTextureCoordinate && std::abs(p.v) < kMaxTextureCoordinate;
+}
 
 // Convex; a segment or a point has fewer than three corners, or some of them twice.
 struct TexturePolygon {

@@ -5,6 +5,7 @@
 #include <cstring>
 
 namespace svdag {
+
 OpacityMap::OpacityMap(const AlphaImage& image, Wrap wrap_u, Wrap wrap_v, bool nearest,
                        double threshold)
     : u_{image.width(), wrap_u},

@@ -1,7 +1,6 @@
 #include "io/scene/gltf/gltf_texture.h"
 
 #include <array>
-#include <cmath>
 #include <span>
 #include <string>
 
@@ -90,8 +89,7 @@ std::vector<TexturePoint> texture_points(const GltfTextureUse& use, int64_t widt
   while (const size_t n = stream.read(std::span<double>(window))) {
     for (size_t i = 0; i < n; ++i) {
       const TexturePoint p = use.place(window[2 * i], window[2 * i + 1], width, height);
-      const auto is_near = [](double x) { return std::abs(x) < kMaxTextureCoordinate; };
-      if (!is_near(p.u) || !is_near(p.v))
+      if (!is_placeable(p))
         fail_input(primitive.path(),
                    std::string("has a texture coordinate that is NaN, infinite or beyond 2^40 "
                                "texels") +

@@ -9,7 +9,6 @@
 // these is excluded and one of them is included.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
@@ -74,7 +73,6 @@ class ObjReader {
   ObjReader(const File& file, const ReadOptions& options, MeshWriter* out)
       : options_(options),
         file_(file),
-        file_bytes_(file.size()),
         stream_(file, 0, end_of_text(file)),
         scanner_(&stream_, {'#', true}),
         texture_(options.budget),
@@ -177,7 +175,7 @@ class ObjReader {
     while (n < more.size() && has_number()) more[n++] = scanner_.number();
     if (out_.vertices() == 0) {
       is_coloured_ = n >= 3;
-      if (is_coloured_) out_.begin_coloured(MeshWriter::Precision::kDouble, file_bytes_);
+      if (is_coloured_) out_.begin_coloured(MeshWriter::Precision::kDouble, file_.size());
     }
     if (!is_coloured_) return out_.vertex(p);
     VertexColour colour = {kWhite16, kWhite16, kWhite16};
@@ -227,8 +225,7 @@ class ObjReader {
       scanner_.fail("has a face with texture coordinate " + std::to_string(index) + ", but " +
                     std::to_string(count) + " precede it");
     const TexturePoint p = cut_->place(texture_[i].u, texture_[i].v);
-    const auto is_near = [](double x) { return std::abs(x) < kMaxTextureCoordinate; };
-    if (!is_near(p.u) || !is_near(p.v))
+    if (!is_placeable(p))
       scanner_.fail(
           "has a texture coordinate of a cut-out that is NaN, infinite or beyond 2^40 texels "
           "(--no-cutouts bakes materials whole)");
@@ -313,7 +310,6 @@ class ObjReader {
 
   const ReadOptions& options_;
   const File& file_;
-  uint64_t file_bytes_;
   MtlMaterials materials_;
   ByteStream stream_;
   TextScanner scanner_;

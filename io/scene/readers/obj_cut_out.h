@@ -1,6 +1,5 @@
-// Materials of OBJ whose transparent points are cut out: those with map_d, and those with map_Kd
-// that
-// --cutout names.
+// Materials of OBJ whose transparent points are cut out: those with map_d, and those with a map_Kd
+// that --cutout names.
 //
 // A point is opaque if alpha times d reaches 0.5. The alpha of a map_d is that of its image, or its
 // luminance if it has none; of a map_Kd, that of its image. A coordinate is scaled (-s), then moved
