@@ -330,7 +330,7 @@ nb::dict from_coords(const Rows<uint32_t>& coords, const nb::bytes& path, int le
 }
 
 // Raises an Error as svdag.Error, and KeyboardInterrupt where another thread's Ctrl-C ended work.
-void translate(const std::exception_ptr& exception, void* type) {
+void translate(const std::exception_ptr& exception, void* error_of) {
   try {
     std::rethrow_exception(exception);
   } catch (const Error& error) {
@@ -338,9 +338,9 @@ void translate(const std::exception_ptr& exception, void* type) {
         PyUnicode_DecodeFSDefaultAndSize(error.path().data(), Py_ssize_t(error.path().size())));
     const nb::object sentence = nb::steal(
         PyUnicode_DecodeUTF8(error.what(), Py_ssize_t(std::strlen(error.what())), "replace"));
-    const nb::handle cls(static_cast<PyObject*>(type));
-    const nb::object made = cls(sentence, int(error.code()), path);
-    PyErr_SetObject(cls.ptr(), made.ptr());
+    const nb::object made =
+        nb::handle(static_cast<PyObject*>(error_of))(sentence, int(error.code()), path);
+    PyErr_SetObject(made.type().ptr(), made.ptr());
   } catch (const Interrupted&) {
     PyErr_SetNone(PyExc_KeyboardInterrupt);
   }
@@ -352,8 +352,8 @@ void translate(const std::exception_ptr& exception, void* type) {
 NB_MODULE(_svdag, m) {
   using namespace svdag;
   m.attr("__version__") = SVDAG_VERSION;
-  nb::object error = nb::module_::import_("svdag._error").attr("Error");
-  nb::register_exception_translator(translate, error.release().ptr());  // kept for good
+  nb::object error_of = nb::module_::import_("svdag._error").attr("error_of");
+  nb::register_exception_translator(translate, error_of.release().ptr());  // kept for good
   nb::class_<PyFile>(m, "File")
       .def(nb::init<const nb::bytes&, const std::vector<nb::bytes>&, std::optional<int>,
                     const std::optional<std::array<double, 6>>&>(),

@@ -55,7 +55,7 @@ figure.savefig("rays.png")
 # %% Points: the volume of the torus by chance, beside 2 pi^2 R r^2.
 random = np.random.default_rng(1)
 low, high = np.array([-3, -0.75, -3]), np.array([3, 0.75, 3])
-inside = scene.occupied(random.uniform(low, high, (1000000, 3)), layer="torus.ply")
+inside = scene.occupied(random.uniform(low, high, (1000000, 3)), layer="torus")
 print(f"volume {inside.mean() * (high - low).prod():.2f}, exactly {2 * np.pi ** 2 * 2 * 0.7 ** 2:.2f}")
 plot.figure()
 distances = np.linspace(0, 1, 50)

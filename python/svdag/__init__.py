@@ -56,10 +56,12 @@ class Hits(NamedTuple):
 
 
 def _rows(values: ArrayLike, dtype: Any, name: str) -> NDArray:
-    array = _np.ascontiguousarray(values, dtype)
+    array = _np.asarray(values)
+    if array.size > 0 and array.dtype.kind not in ("iu" if _np.dtype(dtype).kind == "i" else "iuf"):
+        raise TypeError(f"{name}: {array.dtype} is not a type of {'integers' if _np.dtype(dtype).kind == 'i' else 'real numbers'}")
     if array.ndim != 2 or array.shape[1] != 3:
         raise ValueError(f"{name}: has the shape {array.shape}, not (n, 3)")
-    return array
+    return _np.ascontiguousarray(array, dtype)
 
 
 def _triple(values: Any, name: str, to: Any = _operator.index) -> tuple:
@@ -245,8 +247,8 @@ class File:
         origins, directions: (n, 3) or (3,), world coordinates; directions of any length but 0. Hits beyond tmax, in
         units of the direction's length, do not count.
         """
-        o = _rows(_np.atleast_2d(_np.asarray(origins, float)), _np.float64, "origins")
-        d = _rows(_np.atleast_2d(_np.asarray(directions, float)), _np.float64, "directions")
+        o = _rows(_np.atleast_2d(origins), _np.float64, "origins")
+        d = _rows(_np.atleast_2d(directions), _np.float64, "directions")
         if not tmax >= 0:
             raise ValueError("trace: tmax must be 0 or more")
         return Hits(*self._open().trace(o, d, min(float(tmax), 1e300), self._layer(layer)))
@@ -267,8 +269,14 @@ def unpack_bricks(bricks: ArrayLike) -> NDArray:
     return (words[:, None, None, None] >> bit & _np.uint64(1)).astype(bool)
 
 
-def _write_ply(path: _pathlib.Path, vertices: ArrayLike, faces: ArrayLike) -> None:
-    points, corners = _rows(vertices, "<f8", "vertices"), _rows(faces, _np.int64, "faces")
+def _mesh(mesh: Any, faces: Any = None) -> Tuple[NDArray, NDArray]:
+    """Vertices and faces of a pair, or of an object that has them, such as a mesh of trimesh."""
+    if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
+        mesh, faces = mesh.vertices, mesh.faces
+    return _rows(mesh, "<f8", "vertices"), _rows(faces, _np.int64, "faces")
+
+
+def _write_ply(path: _pathlib.Path, points: NDArray, corners: NDArray) -> None:
     if len(corners) > 0 and not (corners.min() >= 0 and corners.max() < len(points)):
         raise ValueError(f"faces: an index is not 0 to {len(points) - 1}")
     if len(points) >= 2 ** 31:
@@ -282,29 +290,38 @@ def _write_ply(path: _pathlib.Path, vertices: ArrayLike, faces: ArrayLike) -> No
         rows.tofile(file)
 
 
-def build(vertices: Union[ArrayLike, Mapping[str, Tuple[ArrayLike, ArrayLike]]], faces: Optional[ArrayLike] = None,
-          path: PathLike = "", *, progress: Optional[Progress] = None, **options: Any) -> Dict[str, Any]:
+def build(vertices: Any, faces: Optional[ArrayLike] = None, path: PathLike = "", *, progress: Optional[Progress] = None,
+          **options: Any) -> Dict[str, Any]:
     """Bakes triangles as the file `path`, with the bytes that `svdag build` gives, and returns its report.
 
-    vertices: (n, 3) float64; faces: (m, 3) indices of them. Or a mapping from names to such pairs, each a layer.
+    vertices: (n, 3) real numbers; faces: (m, 3) indices of them. Or one object that has `vertices` and `faces`, as meshes of
+    trimesh. Or a mapping from names to such pairs or objects, each a layer of this name.
     options: those of `svdag build`: resolution="1K" or voxel_size=0.05, rule="solid", memory="1G", layout="compact",
     bounds=(x0, y0, z0, x1, y1, z1), sandbox=True, ...
     progress: is called as progress(phase, share), with shares from 0 to 1.
     """
-    parts = vertices if isinstance(vertices, Mapping) else {"scene": (vertices, faces)}
     if not path:
         raise ValueError("build: path is missing")
+    if not isinstance(vertices, Mapping):
+        meshes = {"scene": _mesh(vertices, faces)}
+    else:
+        meshes = {name: _mesh(*mesh) if isinstance(mesh, (tuple, list)) else _mesh(mesh) for name, mesh in vertices.items()}
+        options.setdefault("layers", "file")
+    if not meshes:
+        raise ValueError("build: there is no mesh")
+    for name in meshes:
+        if name in ("", ".", "..") or "/" in name or "\0" in name or len(_os.fsencode(name)) > 255:
+            raise ValueError(f"build: {name!r} cannot be the name of a layer")
     folder = _os.path.dirname(_os.path.abspath(_os.fsdecode(path)))
     with _tempfile.TemporaryDirectory(prefix=".svdag-scene-", dir=folder if _os.path.isdir(folder) else None) as temporary:
-        files = []
-        for name, (points, corners) in parts.items():
-            if not name or "/" in name or "\0" in name:
-                raise ValueError(f"build: {name!r} cannot be the name of a layer")
-            files.append(_pathlib.Path(temporary) / f"{name}.ply")
-            _write_ply(files[-1], points, corners)
-        if isinstance(vertices, Mapping):
-            options.setdefault("layers", "file")
-        return build_files(files, path, progress=progress, **options)
+        files = [_pathlib.Path(temporary) / name for name in meshes]  # a layer has the name of its file
+        for file, (points, corners) in zip(files, meshes.values()):
+            _write_ply(file, points, corners)
+        try:
+            return build_files(files, path, progress=progress, **options)
+        except Error as error:
+            raise type(error)(str(error).replace(f"{temporary}/", ""), error.code,
+                              error.path.replace(f"{temporary}/", "")) from None
 
 
 def build_files(scenes: Union[PathLike, Sequence[PathLike]], path: PathLike, *, progress: Optional[Progress] = None,
@@ -345,9 +362,17 @@ def from_coords(coords: ArrayLike, path: PathLike, *, resolution: Optional[int] 
                               float(voxel_size), max(0, _operator.index(memory)), _RULES[rule], _LAYOUTS[layout])
 
 
-def from_array(array: ArrayLike, path: PathLike, **options: Any) -> Dict[str, Any]:
-    """Writes the voxels where a 3-dimensional array, axes x, y, z, is not 0. Options as from_coords()."""
+def from_array(array: ArrayLike, path: PathLike, *, threshold: Optional[float] = None, **options: Any) -> Dict[str, Any]:
+    """Writes the voxels where a 3-dimensional array, axes x, y, z, is True, or not 0, or more than `threshold`.
+
+    threshold: must be given for floats and negative integers, since distances, densities and labels mean different things.
+    Options as from_coords().
+    """
     voxels = _np.asarray(array)
+    if threshold is not None:
+        voxels = voxels > threshold
+    elif voxels.dtype.kind not in "biu" or (voxels.dtype.kind == "i" and voxels.size > 0 and voxels.min() < 0):
+        raise TypeError(f"array: {voxels.dtype} {'with negative numbers ' if voxels.dtype.kind == 'i' else ''}needs a threshold")
     if voxels.ndim != 3:
         raise ValueError(f"array: has {voxels.ndim} dimensions, not 3")
     if max(voxels.shape, default=0) > 2 ** 20:

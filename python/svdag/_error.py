@@ -1,3 +1,6 @@
+import re
+
+
 class Error(Exception):
     """What svdag refuses or cannot do: one sentence.
 
@@ -9,3 +12,13 @@ class Error(Exception):
         super().__init__(sentence)
         self.code = code
         self.path = path
+
+
+class ArgumentError(Error, ValueError):
+    """An argument that svdag refuses."""
+
+
+def error_of(sentence: str, code: int, path: str = "") -> Error:
+    """The Error of a program's sentence. Options are named as arguments here: --voxel-size is voxel_size."""
+    sentence = re.sub(r"(?<!svdag info )--([a-z][a-z-]*)", lambda option: option[1].replace("-", "_"), sentence)
+    return (ArgumentError if code == 2 else Error)(sentence, code, path)

@@ -9,7 +9,7 @@ import sys
 import threading
 from typing import Any, Callable, Mapping, Optional, Sequence, Union
 
-from ._error import Error
+from ._error import Error, error_of
 
 Progress = Callable[[str, float], Any]
 FOLDER = pathlib.Path(__file__).parent / "bin"
@@ -77,7 +77,7 @@ def run(name: str, *arguments: Union[str, os.PathLike], progress: Optional[Progr
         sentence = messages.strip().splitlines()[-1] if messages.strip() else f"{name} ended by signal {-process.returncode}"
         sentence = re.sub(r"^svdag[\w-]*: ", "", sentence)
         path = next((str(a) for a in arguments if sentence.startswith(f"{a}: ")), "")
-        raise Error(sentence, process.returncode, path)
+        raise error_of(sentence, process.returncode, path)
     return out[0].decode(errors="surrogateescape")
 
 

@@ -197,7 +197,7 @@ class Reading(Files):
 
     def test_layers_are_those_of_the_file(self):
         with svdag.open(self.folder / "layers.svdag") as file:
-            self.assertEqual([layer.name for layer in file.layers], ["ball.ply", "floor.ply"])
+            self.assertEqual([layer.name for layer in file.layers], ["ball", "floor"])
             whole = file.window((0, 0, 0), (128,) * 3)
             parts = [file.window((0, 0, 0), (128,) * 3, layer=i) for i in range(2)]
             np.testing.assert_array_equal(whole, parts[0] | parts[1])
@@ -206,7 +206,7 @@ class Reading(Files):
                 self.assertEqual(file.count(layer=layer.name), layer.voxels)
             hits = file.trace([[3, 4, 9], [1, 1, 9], [8, 8, 9]], [0, 0, -1.0])
             np.testing.assert_array_equal(hits.layer, [0, 1, -1])
-            np.testing.assert_array_equal(file.trace([3, 4, 9], [0, 0, -1.0], layer="floor.ply").layer, [1])
+            np.testing.assert_array_equal(file.trace([3, 4, 9], [0, 0, -1.0], layer="floor").layer, [1])
             with self.assertRaises(KeyError):
                 file.count(layer="roof")
             with self.assertRaises(IndexError):
@@ -271,6 +271,15 @@ class Making(Files):
                      (vertices.tolist(), faces.tolist()), (vertices[::-1], len(vertices) - 1 - faces)]:
             svdag.build(v, f, self.folder / "b.svdag", resolution=64)
             self.assertTrue(svdag.diff(self.folder / "a.svdag", self.folder / "b.svdag")["same"])
+
+    def test_an_object_with_vertices_and_faces_is_a_mesh(self):
+        vertices, faces = sphere_mesh()
+        mesh = type("Trimesh", (), {"vertices": vertices, "faces": faces})()
+        svdag.build(vertices, faces, self.folder / "a.svdag", resolution=64)
+        svdag.build(mesh, path=self.folder / "b.svdag", resolution=64)
+        self.assertTrue(svdag.diff(self.folder / "a.svdag", self.folder / "b.svdag")["same"])
+        svdag.build({"ball": mesh}, path=self.folder / "b.svdag", resolution=64)
+        self.assertEqual(svdag.open(self.folder / "b.svdag").layers[0].name, "ball")
 
     def test_coordinates_have_the_bytes_of_an_import(self):
         npz = self.folder / "coords.npz"
@@ -370,7 +379,9 @@ class Refusals(Files):
         with self.assertRaises(svdag.Error) as caught:
             svdag.build(*sphere_mesh(), self.folder / "a.svdag", resolution=64, rool="thin")
         self.assertEqual(caught.exception.code, 2)
-        self.assertIn("--rool", str(caught.exception))
+        self.assertIn("rool", str(caught.exception))
+        self.assertNotIn("--", str(caught.exception))
+        self.assertIsInstance(caught.exception, ValueError)
         with self.assertRaises(svdag.Error) as caught:
             svdag.build_files(self.folder / "no.ply", self.folder / "a.svdag", resolution=64)
         self.assertEqual((caught.exception.code, caught.exception.path), (3, str(self.folder / "no.ply")))
@@ -378,6 +389,35 @@ class Refusals(Files):
             svdag.from_coords([[0, 0, 0]], self.folder / "none" / "a.svdag")
         self.assertEqual(caught.exception.code, 4)
         self.assertTrue(issubclass(svdag.Error, Exception))
+
+    def test_a_wrong_option_is_a_value_error_that_names_the_argument(self):
+        for call, name in [(lambda: svdag.build(*sphere_mesh(), self.folder / "a.svdag", voxel_size=-1), "voxel_size"),
+                           (lambda: svdag.build(*sphere_mesh(), self.folder / "a.svdag", resolution=7), "resolution"),
+                           (lambda: svdag.open(self.plain, level=99), "level"),
+                           (lambda: svdag.build({}, path=self.folder / "a.svdag", resolution=64), "no mesh"),
+                           (lambda: svdag.build({"..": sphere_mesh()}, path=self.folder / "a.svdag", resolution=64), "layer")]:
+            with self.assertRaisesRegex(ValueError, name) as caught:
+                call()
+            self.assertNotIn("--", str(caught.exception))
+
+    def test_an_error_of_arrays_names_no_file_of_the_package(self):
+        with self.assertRaises(svdag.Error) as caught:
+            svdag.build({"hull": ([[np.nan, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])}, path=self.folder / "a.svdag", resolution=64)
+        self.assertTrue(str(caught.exception).startswith("hull: "), caught.exception)
+        self.assertEqual((caught.exception.code, caught.exception.path), (3, "hull"))
+
+    def test_types_that_would_be_cut_to_integers_are_refused(self):
+        vertices, faces = sphere_mesh()
+        for v, f in [(vertices, faces.astype(float)), (vertices, faces > 0), (vertices + 0j, faces), (vertices > 0, faces)]:
+            with self.assertRaises(TypeError):
+                svdag.build(v, f, self.folder / "a.svdag", resolution=64)
+        field = np.linspace(-1, 1, 512).reshape(8, 8, 8)
+        field[0, 0, 0] = np.nan
+        for array in (field, np.full((8, 8, 8), -1), field + 0j):
+            with self.assertRaises(TypeError):
+                svdag.from_array(array, self.folder / "a.svdag")
+        self.assertEqual(svdag.from_array(field, self.folder / "a.svdag", threshold=0)["voxels"], 256)
+        self.assertEqual(svdag.from_array(np.full((8, 8, 8), 3), self.folder / "a.svdag")["voxels"], 512)
 
     def test_no_argument_crashes(self):
         """Random arguments of random kinds: any exception of Python, but no crash and no other."""
