@@ -58,7 +58,10 @@ std::string nearest(std::string_view word, std::span<const std::string> candidat
       best = candidate;
     }
   }
-  return best;
+  if (!best.empty()) return best;
+  const auto begins = [&](const std::string& candidate) { return candidate.starts_with(word); };
+  const auto longer = std::ranges::find_if(candidates, begins);
+  return word.empty() || longer == candidates.end() ? "" : *longer;
 }
 
 }  // namespace svdag

@@ -12,8 +12,8 @@ namespace svdag {
 
 size_t edit_distance(std::string_view a, std::string_view b);
 
-// The candidate nearest to `word`, the first of equals; "" if more than every third letter of
-// `word` is wrong.
+// The candidate nearest to `word`, the first of equals. If more than every third letter of `word`
+// is wrong, the first that begins with it, or "".
 std::string nearest(std::string_view word, std::span<const std::string> candidates);
 
 // The command of another program of the project: "svdag-verify check" for "check", "svdag-verify"

@@ -130,6 +130,10 @@ std::string format_count(uint64_t count) {
   return text;
 }
 
+std::string format_count(uint64_t count, const std::string& noun) {
+  return format_count(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
 std::string format_point(const Point& p) {
   char text[96];
   std::snprintf(text, sizeof text, "(%.9g, %.9g, %.9g)", p.x, p.y, p.z);

@@ -31,6 +31,8 @@ std::string format_resolution(uint64_t resolution);
 std::string format_bytes(uint64_t bytes);
 // 1234567 -> "1,234,567".
 std::string format_count(uint64_t count);
+// "1 layer", "2,000 layers".
+std::string format_count(uint64_t count, const std::string& noun);
 // "(1, 0.5, -2)", to 9 digits.
 std::string format_point(const Point& p);
 // The shortest decimal text that reads back as exactly `value`.

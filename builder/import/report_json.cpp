@@ -8,7 +8,7 @@ namespace svdag {
 
 std::string layers_text(const ImportReport& report) {
   if (report.layers == 0) return {};
-  return ", " + format_count(report.layers) + (report.layers == 1 ? " layer" : " layers");
+  return ", " + format_count(report.layers, "layer");
 }
 
 std::string report_json(const ImportReport& report, const std::string& output) {

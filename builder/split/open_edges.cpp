@@ -84,8 +84,8 @@ OpenEdges find_open_edges(const Scene& scene, const Grid& grid) {
 }
 
 std::string describe(const OpenEdges& open) {
-  std::string text = (open.all_counted ? "" : "more than ") + format_count(open.edges) +
-                     (open.closed_mod_2 ? " edge" : " open edge") + (open.edges == 1 ? "" : "s");
+  std::string text = (open.all_counted ? "" : "more than ") +
+                     format_count(open.edges, open.closed_mod_2 ? "edge" : "open edge");
   std::string names;
   size_t shown = 0;
   for (const std::string& part : open.parts) {

@@ -147,7 +147,7 @@ $ svdag-verify view c/t.svdag --to again -q && diff -r site again && echo "the s
 $ svdag-verify view t.svdag --to site -q && echo "continued"
 | continued
 $ svdag-verify view t.svdag --to site --level 9
-| site: 1 tiles, about 155 bytes
+| site: 1 tile, about 155 bytes
 ! svdag-verify: site: holds the page of another scene or level; choose another folder
 ? 2
 $ svdag-verify view t.svdag --to .

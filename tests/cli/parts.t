@@ -28,17 +28,17 @@ $ svdag info house.obj --parts | sed -n '/object/,$p'
 |                3  file:house.obj  (0, 0, 0) .. (9, 9, 9)
 $ count() { svdag info house.obj "$@" | head -1; }
 $ count --include 'brick*'
-| house.obj: 2 triangles, 4 positions, 1 components
+| house.obj: 2 triangles, 4 positions, 1 component
 $ count --include 'material:brick*'
-| house.obj: 1 triangles, 3 positions, 1 components
+| house.obj: 1 triangle, 3 positions, 1 component
 $ count --include 'object:brick*'
-| house.obj: 1 triangles, 3 positions, 1 components
+| house.obj: 1 triangle, 3 positions, 1 component
 $ count --exclude glass
-| house.obj: 1 triangles, 3 positions, 1 components
+| house.obj: 1 triangle, 3 positions, 1 component
 $ count --include wall --exclude 'material:glass'
-| house.obj: 1 triangles, 3 positions, 1 components
+| house.obj: 1 triangle, 3 positions, 1 component
 $ count --include 'file:house*'
-| house.obj: 3 triangles, 4 positions, 1 components
+| house.obj: 3 triangles, 4 positions, 1 component
 # A pattern that matches nothing is a mistake.
 $ svdag build house.obj -r 8 --include 'windwo*' --include glass -o x.svdag
 ! svdag: --include 'windwo*' matches nothing: the nearest names are object:wall, material:glass, file:house.obj (--allow-empty goes on)

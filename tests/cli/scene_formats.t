@@ -128,7 +128,7 @@ $ printf '%s' '{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"no
 $ svdag build puppet.gltf -r 64 -o puppet.svdag | tail -n +2
 |   1 triangles are read as stored: skins and morph targets are not applied
 $ svdag info puppet.gltf
-| puppet.gltf: 1 triangles, 3 positions, 1 components
+| puppet.gltf: 1 triangle, 3 positions, 1 component
 |   bounds (0, 0, 0) .. (1, 1, 0)
 |   0 triangles of zero area, 0 of them with two equal corners; 0 repeated triangles
 |   3 open edges, 0 non-manifold edges
@@ -157,7 +157,7 @@ $ for name in t.obj t.off t.stl; do
 >   svdag build $name.gz -o a.svdag -r 64 --scratch . -q && cmp t.svdag a.svdag
 > done
 $ svdag info t.obj.gz | head -2
-| t.obj.gz: 1 triangles, 3 positions, 1 components
+| t.obj.gz: 1 triangle, 3 positions, 1 component
 |   bounds (0, 0, 0) .. (9, 7, 2)
 $ svdag-verify mesh t.svdag t.off.gz | tail -1
 | ok: every voxel agrees with the scene
@@ -168,7 +168,7 @@ $ svdag build short.obj.gz -o b.svdag -r 64
 ! svdag: short.obj.gz: ends too early (at byte 20)
 ? 3
 $ TMPDIR=/nowhere svdag info t.obj.gz | head -1
-| t.obj.gz: 1 triangles, 3 positions, 1 components
+| t.obj.gz: 1 triangle, 3 positions, 1 component
 $ ls -A
 | a.svdag
 | city.ply

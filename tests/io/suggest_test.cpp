@@ -19,6 +19,10 @@ TEST(Suggest, FindsTheNearestWord) {
   const std::vector<std::string> words = {"build", "info", "plan"};
   EXPECT_EQ(nearest("biuld", words), "build");
   EXPECT_EQ(nearest("frobnicate", words), "");
+  const std::vector<std::string> options = {"--resolution", "--progress", "--resume", "-r"};
+  EXPECT_EQ(nearest("--reso", options), "--resolution");
+  EXPECT_EQ(nearest("--res", options), "--resolution");
+  EXPECT_EQ(nearest("", options), "");
 }
 
 TEST(Suggest, FindsTheProgramThatHasACommand) {

@@ -50,6 +50,8 @@ TEST(Units, FormatsNumbers) {
   EXPECT_EQ(format_count(0), "0");
   EXPECT_EQ(format_count(999), "999");
   EXPECT_EQ(format_count(1000), "1,000");
+  EXPECT_EQ(format_count(1, "open edge"), "1 open edge");
+  EXPECT_EQ(format_count(1000, "layer"), "1,000 layers");
   EXPECT_EQ(format_count(1234567), "1,234,567");
 }
 

@@ -67,8 +67,8 @@ int write_to(const std::string& folder, const ViewConfig& config, const DagFile&
   const TileList list = list_tiles(cutter);
   const uint64_t estimate = estimate_bytes(cutter, list, executor);
   if (!config.common.quiet) {
-    std::printf("%s: %s tiles, about %s\n", printable(folder).c_str(),
-                format_count(list.cubes.size()).c_str(), format_bytes(estimate).c_str());
+    std::printf("%s: %s, about %s\n", printable(folder).c_str(),
+                format_count(list.cubes.size(), "tile").c_str(), format_bytes(estimate).c_str());
     std::fflush(stdout);
   }
   const uint64_t bytes = write_folder(folder, file, cutter, list, up, executor, progress);

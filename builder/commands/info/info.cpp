@@ -171,7 +171,7 @@ void info_dag(const InfoCommand& config) {
               stats.voxels == 0 ? 0 : 8.0 * double(h.file_bytes) / double(stats.voxels),
               format_bytes(stats.svo_nodes()).c_str());
   if (!layers.empty())
-    std::printf("  %s layers, one for each %s%s\n", format_count(layers.layers.size()).c_str(),
+    std::printf("  %s, one for each %s%s\n", format_count(layers.layers.size(), "layer").c_str(),
                 layer_kind_name(layers.kind),
                 layers.has_union ? "" : ", without their union: the voxels are those of the first");
   if (file.has_colours())

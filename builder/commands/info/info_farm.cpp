@@ -65,7 +65,7 @@ void print_text(const RunFile& run) {
               h.bounded ? ", restricted by --bounds or --cube" : "");
   if (!run.layers().empty())
     std::printf(
-        "  %s layers, one for each %s%s\n", format_count(run.layers().layers.size()).c_str(),
+        "  %s, one for each %s%s\n", format_count(run.layers().layers.size(), "layer").c_str(),
         layer_kind_name(run.layers().kind), run.layers().has_union ? "" : ", without their union");
   std::printf("  %s voxels set, %s nodes, %s roots, %s\n", format_count(h.voxels).c_str(),
               format_count(nodes).c_str(), format_count(h.roots).c_str(),

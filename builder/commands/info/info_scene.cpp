@@ -160,9 +160,9 @@ void print_text(const InfoCommand& config, const Box& box, const SceneCounts& co
                 const std::vector<Animation>& animations, const std::vector<MeshPart>& parts) {
   std::printf("%s", printable(config.scene.paths.front()).c_str());
   if (config.scene.paths.size() > 1) std::printf(" and %zu more", config.scene.paths.size() - 1);
-  std::printf(": %s triangles, %s positions, %s components\n",
-              format_count(stats.triangles).c_str(), format_count(stats.positions).c_str(),
-              format_count(stats.components).c_str());
+  std::printf(": %s, %s, %s\n", format_count(stats.triangles, "triangle").c_str(),
+              format_count(stats.positions, "position").c_str(),
+              format_count(stats.components, "component").c_str());
   std::printf("  bounds %s .. %s\n", format_point(box.min).c_str(), format_point(box.max).c_str());
   for (const double unit : counts.units) std::printf("  unit %s m\n", format_double(unit).c_str());
   std::printf(

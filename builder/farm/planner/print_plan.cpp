@@ -96,8 +96,8 @@ void print_bake(const Plan& plan, const FreeDisk& disk) {
   std::printf("%s: %s^3, %s triangles in %s cells\n", printable(disk.output).c_str(),
               format_resolution(uint64_t(plan.grid.resolution())).c_str(),
               format_count(plan.counts.scene.triangles).c_str(), format_count(plan.cells).c_str());
-  std::printf("  about %.2f CPU seconds, %.2f s on %zu thread%s\n", plan.one_bake_cpu, seconds,
-              plan.steps.front().threads, plan.steps.front().threads == 1 ? "" : "s");
+  std::printf("  about %.2f CPU seconds, %.2f s on %s\n", plan.one_bake_cpu, seconds,
+              format_count(plan.steps.front().threads, "thread").c_str());
   const uint64_t output_bytes = plan.steps.back().predicted.output;
   std::printf("  a file of about %s, scratch of about %s\n", format_bytes(output_bytes).c_str(),
               format_bytes(p.scratch).c_str());
