@@ -1,8 +1,12 @@
-#include "builder/colours/colour_file.h"
+#include "builder/colour_file.h"
 
-#include "builder/colours/spilled_colours.h"
+#include "builder/bake/checkpoint.h"
+#include "builder/bake/colour_stage.h"
+#include "builder/bake/description.h"
 #include "io/dag/open_dag.h"
 #include "streaming/error.h"
+#include "streaming/file/checksum.h"
+#include "streaming/process/lap_timer.h"
 #include "streaming/spill/scratch_dir.h"
 
 namespace svdag {
@@ -25,37 +29,36 @@ SceneConfig scene_of(const ColourFileConfig& config, const DagFile& file) {
 void check_file(const ColourFileConfig& config, const DagFile& file) {
   if (!file.layers().empty() && !file.layers().has_union)
     fail_usage(config.file + ": has no union (--no-union, --frames), and colours belong to it");
-  const int levels = file.grid().levels;
-  if (config.pass.level && (*config.pass.level < kMinColourLevel || *config.pass.level > levels))
-    fail_usage("--colour-level " + std::to_string(*config.pass.level) + ": choose " +
-               std::to_string(kMinColourLevel) + " to " + std::to_string(levels));
+  check_colour_level(config.pass, file.grid().levels);
 }
 
 }  // namespace
 
-ColourPassReport colour_file(const ColourFileConfig& config, const WriteColoured& write,
-                             Executor* executor, Progress* progress) {
+ColourReport colour_file(const ColourFileConfig& config, Executor* executor, Progress* progress) {
+  LapTimer total;
   Workspace workspace(ScratchDir::path_for(config.output, config.scratch), config.memory,
                       executor->workers());
-  workspace.clear(config.output, kUnfinishedHint);
   const WorkRoom room = workspace.room();
+  Checkpoint checkpoint(&workspace);
+  if (workspace.has_unfinished_bake()) workspace.folder()->keep();  // whatever is wrong with `file`
   const DagFile file = open_dag(config.file, {}, &room);
   check_file(config, file);
-  SpilledColours colours(workspace.scratch());
-  ColourPassReport report;
-  {
-    SpillSpace vertices = workspace.vertices();
-    const Scene scene(scene_of(config, file), workspace.budget(), &vertices);
-    report = scene.watch().guard([&] {
-      return colour_cubes(file, scene, config.pass, &workspace, executor, progress,
-                          [&](std::span<const CubeColour> entries) { colours.add(entries); });
-    });
-  }
-  colours.finish();
-  progress->phase("write", 0);
-  write(
-      file, report.level, [&] { return colours.next(); }, room);
+  const SceneConfig scene = scene_of(config, file);
+  const std::function<std::string()> description = [&] {
+    const std::vector<SceneFile> files = scene_files(Scene(scene, workspace.budget()));
+    return describe_colours(config.pass, scene, to_hex(file.header().content_hash), files);
+  };
+  ColourReport report;
+  std::optional<SavedBake> saved = checkpoint.find(config.output, config.unfinished, description);
+  checkpoint.run(saved.has_value(), [&] {
+    const InputWatch watch = Scene(scene, workspace.budget()).watch();
+    report = colour({config.pass, config.output, config.checkpoint, file, scene, watch, description,
+                     &workspace, &checkpoint, executor, progress},
+                    std::move(saved));
+    checkpoint.discard();
+  });
   progress->finish();
+  report.seconds = total.lap();
   return report;
 }
 
