@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "builder/cache/cell_store.h"
+#include "builder/colours/colour_pass.h"
 #include "builder/descend/descend.h"
 #include "builder/octree/grid_part.h"
 #include "builder/overlap/overlap.h"
@@ -43,9 +44,10 @@ struct BuildConfig : ContentOptions {
   const ReadySplit* ready = nullptr;  // replaces `scene` and the grid options
   std::string output;                 // path; `.run` writes a run file, any other name a `.svdag`
   std::optional<CellRange> part;      // bakes only these cells; the output is a `.run`
-  FastPaths fast_paths;               // for measurements and tests
-  uint64_t memory = 0;                // --memory in bytes; 0: half of the machine
-  int cell_level = -1;                // octree level of the cells; -1: chosen by the grid
+  std::optional<ColourPassConfig> colours;  // --colours: a pass adds them to the baked file
+  FastPaths fast_paths;                     // for measurements and tests
+  uint64_t memory = 0;                      // --memory in bytes; 0: half of the machine
+  int cell_level = -1;                      // octree level of the cells; -1: chosen by the grid
   std::string scratch;  // --scratch: parent of the scratch folder; empty: the output's folder
   Unfinished unfinished = Unfinished::kRefuse;  // --resume, --restart
   bool hash_files = false;  // --report: read the scene's files a second time to hash them
@@ -72,6 +74,13 @@ struct PhaseUse {
   uint64_t peak = 0;  // bytes, counted by the memory budget
 };
 
+// What a colour pass made. `header`: of the file with the colours.
+struct ColourReport : ColourPassReport {
+  Header header{};
+  bool resumed = false;
+  double seconds = 0;
+};
+
 struct BuildReport {
   // If BuildConfig::hash_files is set.
   std::vector<SceneFile> files;
@@ -92,6 +101,7 @@ struct BuildReport {
   std::vector<uint64_t> nodes;  // per level, unique; the last entry counts bricks
   uint64_t file_bytes = 0;
   std::string content_hash;  // 32 hex digits, as `svdag info` prints it
+  std::optional<ColourReport> colours;
   size_t threads = 0;
   struct Phases {
     PhaseUse bounds, split, voxelize, sort, merge, write;

@@ -5,13 +5,16 @@
 #include "builder/bake/bake_bins.h"
 #include "builder/bake/checkpoint.h"
 #include "builder/bake/choose_grid.h"
+#include "builder/bake/colour_stage.h"
 #include "builder/bake/description.h"
 #include "builder/bake/phase_shares.h"
 #include "builder/bake/run_collector.h"
 #include "builder/build.h"
 #include "builder/merge/merge.h"
 #include "builder/run/bake_output.h"
+#include "io/dag/open_dag.h"
 #include "streaming/error.h"
+#include "streaming/file/checksum.h"
 #include "streaming/process/interrupt.h"
 #include "streaming/process/lap_timer.h"
 #include "streaming/spill/scratch_dir.h"
@@ -147,6 +150,11 @@ std::vector<SubDagRoot> merge_runs(const Tools& tools, RunSet* set, const GridPa
   return merge(set->runs, std::move(set->roots), part, config, output, tools.executor);
 }
 
+// Where the bake writes its file: the output is written once, with the colours.
+std::string baked_path(const BuildConfig& config, Workspace* workspace) {
+  return config.colours ? workspace->folder()->path_of(kBakedName) : config.output;
+}
+
 // Without roots, which the output adds.
 LayerTable table_of(const SceneLayers& scene, const RunSet& set, bool with_union) {
   LayerTable table{scene.kind(), with_union, 0, scene.layers()};
@@ -154,11 +162,8 @@ LayerTable table_of(const SceneLayers& scene, const RunSet& set, bool with_union
   return table;
 }
 
-void report_resources(const Tools& tools, const BakeOutput& output, BuildReport* report) {
+void report_resources(const Tools& tools, BuildReport* report) {
   const Scratch& scratch = *tools.workspace->scratch();
-  report->nodes = output.key_counts();
-  report->file_bytes = output.file_bytes();
-  report->content_hash = output.content_hash();
   report->scratch = {tools.disk_need->estimate(), scratch.peak_bytes(), scratch.written_bytes(),
                      scratch.read_bytes()};
   report->threads = tools.executor->workers();
@@ -177,19 +182,22 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   if (config.ready == nullptr) description->watch_files();
 
   progress->show_memory(workspace->budget());
+  // The pass takes about as long as the bake.
+  const Progress::Interval first_half(progress, 0, config.colours ? 0.5 : 1);
   Phases phases(progress, workspace->budget());
   phases.begin("read bounds", kBoundsShare, &report.phases.bounds);
   const ChosenGrid chosen = read_grid(config, scene, saved);
   const Grid& grid = report.grid = chosen.grid;
   report.scene_bounds = chosen.scene_bounds;
+  if (config.colours) check_colour_level(*config.colours, grid.levels);
   disk_need->expect_triangles(chosen.triangles,
                               workspace->shares().triangles / PackedTriangles::kMinBytes);
   const GridPart part =
       config.part ? GridPart::of_cells(*config.part, grid.levels) : GridPart::whole(grid.levels);
   phases.end();
   // Opened before the work begins, so that an unwritable folder is reported at once.
-  const auto output =
-      open_output(config.output, grid, report.rule, part, config.layout, workspace->room());
+  const auto output = open_output(baked_path(config, workspace), grid, report.rule, part,
+                                  config.layout, workspace->room());
   std::unique_ptr<CellStore> store;
   if (config.open_store) store = config.open_store(grid, report.rule, workspace->budget());
 
@@ -255,82 +263,93 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   output->finish(tops, report.voxels, report.split.largest_snap, report.layers);
   std::ranges::sort(report.layers.layers, {}, &Layer::name);
   report.voxels = report.layers.default_voxels(report.voxels);
-  checkpoint->discard();
+  report.nodes = output->key_counts();
+  report.file_bytes = output->file_bytes();
+  report.content_hash = output->content_hash();
+  if (config.colours) {
+    checkpoint->begin(description->text(), grid);
+    checkpoint->save_baked(report.split);
+  }
   phases.end();
-  progress->finish();
-  report_resources(tools, *output, &report);
   return report;
 }
 
-// The unfinished bake of an earlier process, if config.unfinished resumes it. If it is discarded,
-// the scratch folder is empty afterwards. An unfinished bake that must neither be resumed nor
-// discarded is an Error (kUsage).
-std::optional<SavedBake> find_unfinished(const BuildConfig& config, Workspace* workspace,
-                                         Checkpoint* checkpoint, Description* description) {
-  std::optional<SavedBake> saved;
-  if (workspace->has_unfinished_bake()) {
-    const auto wanted = [&](const std::string& text) {
-      return config.unfinished != Unfinished::kResumeSame || text == description->text();
-    };
-    if (config.unfinished != Unfinished::kRestart) saved = checkpoint->resume(wanted);
-    if (saved && saved->runs.empty() && !saved->split) saved.reset();
-    if (!saved) checkpoint->discard();
-  }
-  if (!saved) {
-    workspace->folder()->clear();
-    return saved;
-  }
-  if (config.unfinished == Unfinished::kRefuse)
-    fail_usage(config.output + ": an unfinished bake of it is in " + workspace->folder()->path() +
-               ": continue it with --resume or discard it with --restart");
-  const std::string other = difference(saved->description, description->text());
-  if (!other.empty())
-    fail_usage(config.output + ": the unfinished bake is another one: " + other +
-               "; discard it with --restart");
-  return saved;
+// The report of a bake whose file waits for its colours.
+BuildReport report_of(const SavedBake& saved, const DagFile& file) {
+  BuildReport report;
+  report.resumed = true;
+  report.grid = file.grid();
+  report.rule = file.rule();
+  report.split = *saved.baked;
+  report.voxels = report.voxels_kept = file.header().voxels;
+  report.layers = file.layers();
+  for (uint32_t k = 0; k < file.header().section_count; ++k)
+    report.nodes.push_back(file.header().sections[k].nodes);
+  report.content_hash = to_hex(file.header().content_hash);
+  return report;
 }
 
-// As bake(); an error also reports whether --resume can continue.
+// The pass over the file of the bake.
+void add_colours(const Tools& tools, Description* description, Checkpoint* checkpoint,
+                 std::optional<SavedBake> saved, BuildReport* report) {
+  const auto& [config, executor, progress, workspace, disk_need] = tools;
+  const WorkRoom room = workspace->room();
+  const DagFile file = open_dag(baked_path(config, workspace), {}, &room);
+  if (saved && saved->baked) *report = report_of(*saved, file);
+  const std::function<std::string()> text = [description] { return description->text(); };
+  const SceneConfig scene = described_scene(config);
+  const Progress::Interval second_half(progress, 0.5, 1);
+  report->colours = colour({*config.colours, config.output, config.checkpoint, file, scene,
+                            description->watch(), text, workspace, checkpoint, executor, progress},
+                           std::move(saved));
+  report->split.scene = report->colours->scene;
+  report->file_bytes = report->colours->header.file_bytes;
+  if (config.hash_files) {
+    report->files = description->files();
+    report->description_hash = hash_of_description(description->text());
+  }
+}
+
+// An error also reports whether --resume can continue.
 BuildReport bake_resumably(const BuildConfig& config, Executor* executor, Progress* progress) {
   LapTimer total;
   Workspace workspace(ScratchDir::path_for(config.output, config.scratch), config.memory,
                       executor->workers());
   SpillSpace vertices = workspace.vertices();
   const Scene scene(config.scene, workspace.budget(), &vertices);
-  Description description(config, scene);
+  const Scene described(described_scene(config), workspace.budget());
+  Description description(config, described);
   Checkpoint checkpoint(&workspace);
   DiskNeed disk_need(workspace.scratch());
-  auto saved = find_unfinished(config, &workspace, &checkpoint, &description);
-  const std::string hint = std::string("; what is done so far is kept for --resume") +
-                           (saved ? ", --restart begins anew" : "");
-  try {
-    BuildReport report = bake({config, executor, progress, &workspace, &disk_need}, scene,
-                              &description, &checkpoint, std::move(saved));
-    report.seconds = total.lap();
-    return report;
-  } catch (Interrupted& interrupted) {
-    interrupted.resumable = checkpoint.has_saved_work();
-    throw;
-  } catch (const InvalidScratch&) {  // there is nothing to resume
-    throw;
-  } catch (const Error& error) {
-    if (!checkpoint.has_saved_work() || error.code() == ExitCode::kInternal) throw;
-    throw error.with_hint(hint);
-  } catch (const std::exception& error) {
-    if (!checkpoint.has_saved_work() || !is_lack_of_memory(error)) throw;
-    throw Error(ExitCode::kMemory, kNoMemory + hint);
-  }
+  auto saved =
+      checkpoint.find(config.output, config.unfinished, [&] { return description.text(); });
+  const Tools tools = {config, executor, progress, &workspace, &disk_need};
+  BuildReport report;
+  checkpoint.run(saved.has_value(), [&] {
+    if (!saved || !saved->baked)
+      report = bake(tools, scene, &description, &checkpoint, std::exchange(saved, {}));
+    if (config.colours) add_colours(tools, &description, &checkpoint, std::move(saved), &report);
+    checkpoint.discard();
+    progress->finish();
+    report_resources(tools, &report);
+  });
+  report.seconds = total.lap();
+  return report;
 }
 
 }  // namespace
 
 std::string description_hash_of(const BuildConfig& config) {
   MemoryBudget budget(memory_or_default(config.memory));
-  const Scene scene(config.scene, &budget);
+  const Scene scene(described_scene(config), &budget);
   return hash_of_description(describe(config, scene_files(scene)));
 }
 
 BuildReport build(const BuildConfig& config, Executor* executor, Progress* progress) {
+  if (config.colours && (config.part || names_run(config.output)))
+    fail_usage("--colours: runs have none: merge them first, then use svdag colour");
+  if (config.colours && !config.with_union)
+    fail_usage("--colours: they belong to the union: leave --no-union and --frames out");
   if (config.part && !names_run(config.output))
     fail_usage(config.output + ": a part of a grid is a run: choose an output that ends in .run");
   try {

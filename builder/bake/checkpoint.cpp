@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "builder/bake/description.h"
+#include "streaming/process/interrupt.h"
 #include "streaming/spill/scratch_dir.h"
 
 namespace svdag {
@@ -37,6 +39,50 @@ std::optional<SavedBake> Checkpoint::resume(const std::function<bool(const std::
   return saved;
 }
 
+std::optional<SavedBake> Checkpoint::find(const std::string& output, Unfinished unfinished,
+                                          const std::function<std::string()>& description) {
+  std::optional<SavedBake> saved;
+  if (workspace_->has_unfinished_bake()) {
+    const auto wanted = [&](const std::string& text) {
+      return unfinished != Unfinished::kResumeSame || text == description();
+    };
+    if (unfinished != Unfinished::kRestart) saved = resume(wanted);
+    if (saved && !saved->has_work()) saved.reset();
+    if (!saved) discard();
+  }
+  if (!saved) {
+    workspace_->folder()->clear();
+    return saved;
+  }
+  if (unfinished == Unfinished::kRefuse)
+    fail_usage(output + ": an unfinished bake of it is in " + workspace_->folder()->path() +
+               ": continue it with --resume or discard it with --restart");
+  const std::string other = difference(saved->description, description());
+  if (!other.empty())
+    fail_usage(output + ": the unfinished bake is another one: " + other +
+               "; discard it with --restart");
+  return saved;
+}
+
+void Checkpoint::run(bool resumed, const std::function<void()>& work) const {
+  const std::string hint = std::string("; what is done so far is kept for --resume") +
+                           (resumed ? ", --restart begins anew" : "");
+  try {
+    work();
+  } catch (Interrupted& interrupted) {
+    interrupted.resumable = has_saved_work();
+    throw;
+  } catch (const InvalidScratch&) {  // there is nothing to resume
+    throw;
+  } catch (const Error& error) {
+    if (!has_saved_work() || error.code() == ExitCode::kInternal) throw;
+    throw error.with_hint(hint);
+  } catch (const std::exception& error) {
+    if (!has_saved_work() || !is_lack_of_memory(error)) throw;
+    throw Error(ExitCode::kMemory, kNoMemory + hint);
+  }
+}
+
 void Checkpoint::begin(const std::string& description, const Grid& grid) {
   if (journal_) return;
   ScratchDir* const folder = workspace_->folder();
@@ -57,6 +103,16 @@ void Checkpoint::save_split(const SplitScene& split) {
 void Checkpoint::save_run(const BakedRun& baked) {
   workspace_->scratch()->runs()->sync();
   append(SavedKind::kRun, run_record(baked));
+}
+
+void Checkpoint::save_baked(const SplitCounts& counts) {
+  append(SavedKind::kBaked, baked_record(counts));
+  workspace_->scratch()->remove_saved();
+}
+
+void Checkpoint::save_colours(uint64_t end, const SpillStream& entries) {
+  workspace_->scratch()->runs()->sync();
+  append(SavedKind::kColours, colours_record(end, entries));
 }
 
 void Checkpoint::append(SavedKind kind, const RecordWriter& record) {

@@ -95,6 +95,17 @@ void describe_scene(const SceneConfig& scene, std::ostream* out) {
   *out << "invalid triangles: " << (skip_invalid ? "dropped" : "refused") << '\n';
 }
 
+// The error is that of the file: the pass is the same.
+void describe_pass(const ColourPassConfig& pass, std::ostream* out) {
+  *out << "colours: algorithm " << kColourAlgorithm << ", level "
+       << (pass.level ? std::to_string(*pass.level) : "by texels") << '\n';
+}
+
+void describe_files(const std::vector<SceneFile>& files, std::ostream* out) {
+  for (const SceneFile& file : files)
+    *out << "content of " << escaped(file.name()) << ": " << file.hash << '\n';
+}
+
 }  // namespace
 
 std::vector<SceneFile> scene_files(const Scene& scene) {
@@ -113,10 +124,30 @@ std::string describe(const BuildConfig& config, const std::vector<SceneFile>& fi
         << config.part->level << '\n';
   if (config.ready != nullptr) return out.str() + config.ready->description;
   describe_options(config, &out);
+  if (config.colours) {
+    describe_pass(*config.colours, &out);
+    out << "colour error: " << config.colours->error << '/' << kColourErrorUnit << '\n';
+  }
   describe_scene(config.scene, &out);
-  for (const SceneFile& file : files)
-    out << "content of " << escaped(file.name()) << ": " << file.hash << '\n';
+  describe_files(files, &out);
   return out.str();
+}
+
+std::string describe_colours(const ColourPassConfig& pass, const SceneConfig& scene,
+                             const std::string& content_hash, const std::vector<SceneFile>& files) {
+  std::ostringstream out;
+  out.exceptions(std::ios::badbit);
+  out << "colours of: " << content_hash << '\n';
+  describe_pass(pass, &out);
+  describe_scene(scene, &out);
+  describe_files(files, &out);
+  return out.str();
+}
+
+SceneConfig described_scene(const BuildConfig& config) {
+  SceneConfig scene = config.scene;
+  if (config.colours) scene.colours = scene.paint = true;
+  return scene;
 }
 
 std::string hash_of_description(const std::string& description) {

@@ -15,6 +15,13 @@ namespace svdag {
 // The files of a scene. Reads all of them once, for their hashes.
 std::vector<SceneFile> scene_files(const Scene& scene);
 
+// The scene as the description has it: with the images of colours.
+SceneConfig described_scene(const BuildConfig& config);
+
+// Of the colours that a pass over the file with this content hash adds. `files`: of the scene.
+std::string describe_colours(const ColourPassConfig& pass, const SceneConfig& scene,
+                             const std::string& content_hash, const std::vector<SceneFile>& files);
+
 // `files`: of the scene; not needed if config.ready is set, since the plan describes them.
 std::string describe(const BuildConfig& config, const std::vector<SceneFile>& files);
 
@@ -36,6 +43,7 @@ class Description {
 
   // Records the state of the scene's files; call before the scene is read.
   void watch_files() { watch_ = scene_.watch(); }
+  const InputWatch& watch() const { return watch_; }
   // Error (kBadInput) if a file has changed since.
   void check_files() const { watch_.check(); }
 

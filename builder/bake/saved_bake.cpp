@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "builder/colours/spilled_colours.h"
 #include "builder/split/bin_record.h"
 #include "builder/workspace/scratch.h"
 
@@ -10,7 +11,7 @@ namespace {
 
 // Changes when any record does, those of builder/split/bin_record.h included. Journals without a
 // layout begin with the length of their description instead, a text of several lines.
-constexpr uint32_t kLayout = 8;
+constexpr uint32_t kLayout = 9;
 
 // Writes a field in a form without padding or bool.
 struct PutField {
@@ -152,6 +153,17 @@ BakedRun get_run(RecordReader* in, int levels) {
   return baked;
 }
 
+void get_colours(RecordReader* in, SavedBake* saved) {
+  uint64_t end = 0;
+  in->get(&end);
+  in->require(saved->coloured <= end && end <= uint64_t(1) << 3 * saved->grid.levels,
+              "colours are not in the grid");
+  saved->coloured = end;
+  const SpillStream& stream = saved->colours.emplace_back(get_stream(in));
+  in->require(stream.bytes % SpilledColours::kEntryBytes == 0, "colours end within an entry");
+  grow(&saved->run_blocks, stream);
+}
+
 template <class Key>
 void put_level(const RunLevel<Key>& level, RecordWriter* out) {
   SVDAG_ASSERT(level.spilled);
@@ -191,6 +203,19 @@ RecordWriter run_record(const BakedRun& baked) {
   return record;
 }
 
+RecordWriter baked_record(const SplitCounts& counts) {
+  RecordWriter record;
+  visit_count_fields(counts, PutField{&record});
+  return record;
+}
+
+RecordWriter colours_record(uint64_t end, const SpillStream& entries) {
+  RecordWriter record;
+  record.put(end);
+  put_stream(entries, &record);
+  return record;
+}
+
 SavedBake read_saved(std::span<const JournalRecord> records, const std::string& path) {
   SavedBake saved;
   for (const JournalRecord& record : records) {
@@ -212,6 +237,14 @@ SavedBake read_saved(std::span<const JournalRecord> records, const std::string& 
       const Run& run = saved.runs.emplace_back(get_run(&in, saved.grid.levels)).run;
       grow(&saved.run_blocks, *run.bricks.spilled);
       for (const auto& level : run.nodes) grow(&saved.run_blocks, *level.spilled);
+    } else if (kind == SavedKind::kBaked) {
+      in.require(!saved.baked, "it was baked twice");
+      visit_count_fields(saved.baked.emplace(), GetField{&in});
+      saved.split.reset();
+      saved.runs.clear();
+      saved.triangle_blocks = saved.run_blocks = 0;
+    } else if (kind == SavedKind::kColours) {
+      get_colours(&in, &saved);
     } else {
       in.require(kind == SavedKind::kSession, "a record is of an unknown kind");
       ++saved.sessions;

@@ -23,16 +23,31 @@ struct SavedBake {
   uint64_t block_bytes = 0;         // of the scratch; 0: the journal has no bake
   std::optional<SplitScene> split;  // spilled triangles
   std::vector<BakedRun> runs;
-  uint64_t sessions = 0;  // processes that resumed it
+  // Of the finished bake, whose file waits for its colours; then there is no split and no run.
+  std::optional<SplitCounts> baked;
+  uint64_t coloured = 0;             // Morton code before which all cubes have their colours
+  std::vector<SpillStream> colours;  // in the scratch's `runs` (builder/colours/spilled_colours.h)
+  uint64_t sessions = 0;             // processes that resumed it
   // Blocks in use of the scratch's files.
   uint32_t triangle_blocks = 0, run_blocks = 0;
+
+  bool has_work() const { return split || !runs.empty() || baked || coloured > 0; }
 };
 
-enum class SavedKind : uint32_t { kBake = 1, kSplit = 2, kRun = 3, kSession = 4 };
+enum class SavedKind : uint32_t {
+  kBake = 1,
+  kSplit = 2,
+  kRun = 3,
+  kSession = 4,
+  kBaked = 5,
+  kColours = 6
+};
 
 RecordWriter bake_record(const std::string& description, const Grid& grid, uint64_t block_bytes);
 RecordWriter split_record(const SplitScene& split);
 RecordWriter run_record(const BakedRun& baked);  // which was spilled
+RecordWriter baked_record(const SplitCounts& counts);
+RecordWriter colours_record(uint64_t end, const SpillStream& entries);
 
 // Error that names `path`: kOutput, as for all problems of a scratch folder, if records are
 // invalid; kUsage, with the hint to use --restart, if they are of another layout.

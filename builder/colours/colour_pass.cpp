@@ -32,7 +32,7 @@ class ColourPass {
  public:
   ColourPass(const DagFile& file, const PaintedScene& scene, int level, uint64_t max_triangles,
              Workspace* workspace, Executor* executor, Progress* progress,
-             const CubeColourSink& sink)
+             const CubeColourSink& sink, uint64_t begin, const ColoursPassed& passed)
       : dag_(file.view()),
         grid_(file.grid()),
         scene_(scene),
@@ -43,8 +43,11 @@ class ColourPass {
         executor_(*executor),
         progress_(*progress),
         sink_(sink),
-        untouched_(dag_, grid_, file.rule(), level),
+        begin_(begin),
+        passed_(passed),
+        untouched_(dag_, grid_, file.rule(), level, workspace->budget()),
         upper_lists_(size_t(level) + 1) {
+    SVDAG_ASSERT(is_between_parts(begin));
     for (size_t i = 0; i < executor->workers(); ++i)
       walkers_.emplace_back(dag_, grid_, file.rule(), level, &untouched_);
   }
@@ -71,6 +74,19 @@ class ColourPass {
   uint64_t missing() const { return untouched_.missing(); }
 
  private:
+  // No part, so no cube of the colour level, begins before and ends after the code.
+  bool is_between_parts(uint64_t code) const {
+    return code % (uint64_t(1) << 3 * (grid_.levels - part_level_)) == 0;
+  }
+  bool is_done(const CoveredNode& node) const {
+    return morton_range(node.cube, grid_.levels).end <= begin_;
+  }
+  // Then it has undone children.
+  bool is_partly_done(const CoveredNode& node) const {
+    const MortonRange range = morton_range(node.cube, grid_.levels);
+    return range.begin < begin_ && begin_ < range.end;
+  }
+
   // Visits the covered cubes of `bin_level` in `node` in Morton order, each with its bin. Bins are
   // freed after use.
   void visit_bins(const CoveredNode& node, int bin_level, std::vector<PaintedBin>* bins) {
@@ -79,10 +95,11 @@ class ColourPass {
   }
   void visit_bins(const CoveredNode& node, int bin_level, std::vector<PaintedBin>* bins,
                   size_t* next) {
+    if (is_done(node)) return;
     if (node.cube.level == bin_level) {
       const uint64_t code = morton(node.cube.coordinate);
       for (; *next < bins->size() && morton((*bins)[*next].cube.coordinate) < code; ++*next)
-        free((*bins)[*next]);  // nothing is set there
+        free((*bins)[*next]);  // nothing is set there, or it is done
       if (*next == bins->size() || (*bins)[*next].cube != node.cube) return untouched(node);
       return visit_bin(node, (*bins)[(*next)++]);
     }
@@ -145,6 +162,12 @@ class ColourPass {
   void free(const PaintedBin& bin) { workspace_.scratch()->transient()->free(bin.stream); }
 
   void untouched(const CoveredNode& node) {
+    if (is_done(node)) return;
+    if (is_partly_done(node)) {
+      for (uint32_t mask = covered_children(dag_, node); mask != 0; mask &= mask - 1)
+        untouched(covered_child(dag_, node, unsigned(std::countr_zero(mask))));
+      return;
+    }
     untouched_.add(node, &parts_.emplace_back(Part{node, {}, {}}).colours);
   }
 
@@ -161,8 +184,11 @@ class ColourPass {
 
   // Divides down to the parts.
   void divide(const CoveredNode& node, const TriangleList& list) {
+    if (is_done(node)) return;
+    const bool is_partly = is_partly_done(node);
+    if (is_partly && list.empty()) return untouched(node);
     Part part{node, {}, {}};
-    if (walkers_[0].ends(*prepared_, node, list, &part.colours)) {
+    if (!is_partly && walkers_[0].ends(*prepared_, node, list, &part.colours)) {
       parts_.push_back(std::move(part));
       return;
     }
@@ -193,14 +219,15 @@ class ColourPass {
       entries_ += part.colours.size();
       if (!part.colours.empty()) sink_(part.colours);
     }
-    if (!parts_.empty()) advance(parts_.back().node.cube);
+    if (!parts_.empty()) pass_to(morton_range(parts_.back().node.cube, grid_.levels).end);
     parts_.clear();
     listed_ = 0;
   }
 
-  void advance(const Cube& last) {
-    const MortonRange range = morton_range(last, grid_.levels);
-    const uint64_t done = uint64_t(double(range.end) / std::ldexp(1.0, 3 * grid_.levels) * 4096);
+  // Cubes without a triangle are an error at the end, with their number: none is left behind.
+  void pass_to(uint64_t end) {
+    if (passed_ && is_between_parts(end) && missing() == 0) passed_(end);
+    const uint64_t done = uint64_t(double(end) / std::ldexp(1.0, 3 * grid_.levels) * 4096);
     if (done > shown_) progress_.advance(done - shown_);
     shown_ = std::max(done, shown_);
   }
@@ -214,6 +241,8 @@ class ColourPass {
   Executor& executor_;
   Progress& progress_;
   const CubeColourSink& sink_;
+  uint64_t begin_;
+  const ColoursPassed& passed_;
   UntouchedNodes untouched_;
   std::vector<PartWalker> walkers_;                       // [worker]
   std::vector<std::array<TriangleList, 8>> upper_lists_;  // [level]: of the children there
@@ -247,9 +276,16 @@ void check_bounds(const DagFile& file, const PaintedScene& scene) {
 
 }  // namespace
 
+void check_colour_level(const ColourPassConfig& config, int levels) {
+  if (!config.level || (*config.level >= kMinColourLevel && *config.level <= levels)) return;
+  fail_usage("--colour-level " + std::to_string(*config.level) + ": choose " +
+             std::to_string(kMinColourLevel) + " to " + std::to_string(levels));
+}
+
 ColourPassReport colour_cubes(const DagFile& file, const Scene& scene,
                               const ColourPassConfig& config, Workspace* workspace,
-                              Executor* executor, Progress* progress, const CubeColourSink& sink) {
+                              Executor* executor, Progress* progress, const CubeColourSink& sink,
+                              uint64_t begin, const ColoursPassed& passed) {
   const Grid grid = file.grid();
   ColourPassReport report;
   LapTimer timer;
@@ -274,7 +310,8 @@ ColourPassReport colour_cubes(const DagFile& file, const Scene& scene,
                              double(int64_t(1) << (grid.levels - report.level));
   std::vector<PaintedBin> bins;
   if (painted.bins) bins = painted.bins->finish();
-  ColourPass pass(file, painted, report.level, max_triangles, workspace, executor, progress, sink);
+  ColourPass pass(file, painted, report.level, max_triangles, workspace, executor, progress, sink,
+                  begin, passed);
   pass.run(std::move(painted.triangles), std::move(bins));
   pass.report(&report);
   if (pass.missing() > 0)

@@ -80,6 +80,19 @@ struct ShareSetup::Polygon {
     a[size] = at_a;
     b[size++] = at_b;
   }
+  // What of it is in the half plane by_a a + by_b b + base >= 0.
+  void clip(double by_a, double by_b, double base, Polygon* out) const noexcept {
+    double value[kMaxCorners];
+    for (int k = 0; k < size; ++k) value[k] = by_a * a[k] + by_b * b[k] + base;
+    out->size = 0;
+    for (int k = 0; k < size; ++k) {
+      const int l = k + 1 == size ? 0 : k + 1;
+      if (value[k] >= 0) out->add(a[k], b[k]);
+      if ((value[k] >= 0) == (value[l] >= 0)) continue;
+      const double part = value[k] / (value[k] - value[l]);
+      out->add(a[k] + (a[l] - a[k]) * part, b[k] + (b[l] - b[k]) * part);
+    }
+  }
 };
 
 ShareSetup::ShareSetup(const PaintedTriangle& t, const TriangleSetup& setup, const Paints& paints,
@@ -133,7 +146,8 @@ ShareSetup::ShareSetup(const PaintedTriangle& t, const TriangleSetup& setup, con
   const auto& levels = paint.image->levels();
   paint_ = &paint;
   image_level_ = level_for(span, levels.size());
-  sampler_ = LevelSampler(paint, image_level_, paint.nearest && span < 2);
+  has_squares_ = paint.nearest && span < 2;
+  sampler_ = LevelSampler(paint, image_level_, has_squares_);
   for (size_t k = 0; k < 3; ++k) {
     corner_u_[k] = t.corners[k].texture.u;
     corner_v_[k] = t.corners[k].texture.v;
@@ -186,6 +200,61 @@ CubeShare ShareSetup::share_of(const ColourSum& sum, double full) const noexcept
   return share;
 }
 
+// Adds the texels that are squares in a polygon, by their areas there. `at_a`, `at_b`: corner 0.
+// False if there are too many: of a sliver, by rounding.
+bool ShareSetup::add_squares(const Polygon& polygon, double at_a, double at_b,
+                             ColourSum* sum) const noexcept {
+  constexpr double kMost = 8;
+  const auto first = [&](const Affine2& f, double* last) {
+    double low = f.high, high = f.low;
+    for (int k = 0; k < polygon.size; ++k) {
+      const double value = f.base + (f.a * (polygon.a[k] - at_a) + f.b * (polygon.b[k] - at_b));
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+    *last = std::floor(std::min(high, f.high));
+    return std::floor(std::max(low, f.low));
+  };
+  double last_u, last_v;
+  const double first_u = first(u_, &last_u), first_v = first(v_, &last_v);
+  if (last_u - first_u > kMost || last_v - first_v > kMost) return false;
+  // Of a polygon, what is in the texels `i` of a row or column `first` .. `last`.
+  const auto slice = [&](const Polygon& whole, const Affine2& f, double i, double begin,
+                         double end) {
+    const double base = f.base - (f.a * at_a + f.b * at_b);
+    Polygon part = whole, other;
+    if (i != begin) {
+      part.clip(f.a, f.b, base - i, &other);
+      part = other;
+    }
+    if (i != end) {
+      part.clip(-f.a, -f.b, i + 1 - base, &other);
+      part = other;
+    }
+    return part;
+  };
+  for (double i = first_u; i <= last_u; ++i) {
+    const Polygon column = slice(polygon, u_, i, first_u, last_u);
+    for (double j = first_v; j <= last_v && column.size >= 3; ++j) {
+      const Polygon cell = slice(column, v_, j, first_v, last_v);
+      for (int k = 1; k + 1 < cell.size; ++k) {
+        const double pa = cell.a[k] - cell.a[0], pb = cell.b[k] - cell.b[0];
+        const double qa = cell.a[k + 1] - cell.a[0], qb = cell.b[k + 1] - cell.b[0];
+        const double part = std::abs(pa * qb - pb * qa) / 2;
+        if (!(part > 0)) continue;
+        double colour[3];
+        for (int c = 0; c < 3 && has_colours_; ++c) {
+          const Affine2& f = colours_[c];
+          const double a = cell.a[0] - at_a + (pa + qa) / 3, b = cell.b[0] - at_b + (pb + qb) / 3;
+          colour[c] = std::min(std::max(f.base + (f.a * a + f.b * b), f.low), f.high);
+        }
+        *sum += sample_at(sampler_, i + 0.5, j + 0.5, colour) * float(part);
+      }
+    }
+  }
+  return true;
+}
+
 CubeShare ShareSetup::share_in(const LatticePoint& corner) const noexcept {
   if (!has_area_) return {0, has_one_colour_ ? colour_ : std::array<uint16_t, 3>{}};
   // Corners of the triangle in the projection, relative to that of the cube: exact.
@@ -205,7 +274,7 @@ CubeShare ShareSetup::share_in(const LatticePoint& corner) const noexcept {
     edge_low[k] = edge[k] + std::min(edge_a_[k], 0.0) + std::min(edge_b_[k], 0.0);
     inside &= edge_low[k] >= 0;
   }
-  if (inside) {
+  if (inside && !has_squares_) {
     if (has_one_colour_) return {uint64_t(stretch_ + 0.5), colour_};
     const double a = -at_a[0], b = -at_b[0];
     const ColourSum sum = (sample(a + 0.25, b + 0.25) + sample(a + 0.75, b + 0.25)) +
@@ -221,18 +290,7 @@ CubeShare ShareSetup::share_in(const LatticePoint& corner) const noexcept {
   first.add(0, 1);
   Polygon *polygon = &first, *next = &second;
   const auto clip = [&](double by_a, double by_b, double base) {
-    const int size = polygon->size;
-    double value[Polygon::kMaxCorners];
-    for (int k = 0; k < size; ++k) value[k] = by_a * polygon->a[k] + by_b * polygon->b[k] + base;
-    next->size = 0;
-    for (int k = 0; k < size; ++k) {
-      const int l = k + 1 == size ? 0 : k + 1;
-      if (value[k] >= 0) next->add(polygon->a[k], polygon->b[k]);
-      if ((value[k] >= 0) == (value[l] >= 0)) continue;
-      const double part = value[k] / (value[k] - value[l]);
-      next->add(polygon->a[k] + (polygon->a[l] - polygon->a[k]) * part,
-                polygon->b[k] + (polygon->b[l] - polygon->b[k]) * part);
-    }
+    polygon->clip(by_a, by_b, base, next);
     std::swap(polygon, next);
     return polygon->size >= 3;
   };
@@ -243,6 +301,7 @@ CubeShare ShareSetup::share_in(const LatticePoint& corner) const noexcept {
   }
   double area = 0;
   ColourSum sum{};
+  const bool is_summed = has_squares_ && add_squares(*polygon, at_a[0], at_b[0], &sum);
   const double a0 = polygon->a[0], b0 = polygon->b[0];
   for (int k = 1; k + 1 < polygon->size; ++k) {
     const double pa = polygon->a[k] - a0, pb = polygon->b[k] - b0;
@@ -250,7 +309,7 @@ CubeShare ShareSetup::share_in(const LatticePoint& corner) const noexcept {
     const double part = std::abs(pa * qb - pb * qa) / 2;
     if (!(part > 0)) continue;
     area += part;
-    if (has_one_colour_) continue;
+    if (has_one_colour_ || is_summed) continue;
     const double a = a0 - at_a[0], b = b0 - at_b[0];
     if (part < 1.0 / 16) {
       sum += sample(a + (pa + qa) / 3, b + (pb + qb) / 3) * float(part);

@@ -25,8 +25,9 @@
 //   accident, does not read the mean of the image. The level is that where s is 2 to 4 texels.
 // * Slivers. Samples are clamped to the range of the corners' coordinates and colours: the gradient
 //   of a sliver cannot extrapolate to texels that it does not have.
-// * Nearest. Texels of a sampler that shows squares are squares where s < 2, so a voxel world has
-//   its own colours; beyond, samples would miss texels, and the bilinear mean is nearer.
+// * Nearest. Texels of a sampler that shows squares are squares where s < 2, and each weighs its
+//   area in Q, so a voxel world has its own colours. Beyond, there are too many, and the bilinear
+//   mean is near.
 // * Cut-outs. A texel that is cut out weighs nothing (io/scene/colours/linear_image.h).
 // * Which triangles meet Q matters where they have next to no area (a wall that touches the face
 //   of Q): a triangle with a >= 2^20 does, others and very large ones are decided in exact
@@ -74,6 +75,7 @@ class ShareSetup {
 
   Affine2 interpolate(double at0, double at1, double at2) const noexcept;
   ColourSum sample(double a, double b) const noexcept;
+  bool add_squares(const Polygon& polygon, double at_a, double at_b, ColourSum* sum) const noexcept;
   ColourSum sample_at(const LevelSampler& sampler, double u, double v,
                       const double colour[3]) const noexcept;
   CubeShare share_of(const ColourSum& sum, double area) const noexcept;
@@ -90,6 +92,7 @@ class ShareSetup {
   double to1_[2], to2_[2];            // these edges
   size_t image_level_ = 0;
   bool has_one_colour_, has_texture_ = false, has_holes_ = false, has_colours_ = false;
+  bool has_squares_ = false;
   std::array<uint16_t, 3> colour_;
   double factor_[3];
   const Paint* paint_ = nullptr;

@@ -12,27 +12,10 @@ bool is_invisible(const CutOut& cut) {
          double(cut.image->at(0, 0)) < cut.threshold;
 }
 
-uint32_t paint_number(const Paint& paint, Paints* all) {
-  const auto found = std::ranges::find(*all, paint);
-  if (found != all->end()) return uint32_t(found - all->begin());
-  all->push_back(paint);
-  return uint32_t(all->size() - 1);
-}
-
 std::array<uint16_t, 3> colour_of(const TriangleBatch& batch) {
   if (!batch.colour) return {kWhite16, kWhite16, kWhite16};
   return {light16_of_code(batch.colour->r), light16_of_code(batch.colour->g),
           light16_of_code(batch.colour->b)};
-}
-
-void paint_corners(const TriangleBatch& batch, size_t k, uint32_t paint, PaintedTriangle* t) {
-  const CornerColours& colours = batch.corner_colours[k];
-  const auto one = one_colour(*batch.paint, colours);
-  t->paint = one ? kOneColour : paint;
-  for (size_t i = 0; i < 3; ++i) {
-    t->corners[i].colour = one ? *one : colours[i];
-    if (batch.paint->image) t->corners[i].texture = batch.texture[k][i];
-  }
 }
 
 }  // namespace
@@ -61,8 +44,7 @@ SceneReader::SceneReader(const Grid& grid, uint64_t max_triangles, uint64_t tria
 void SceneReader::read(const TriangleBatch& batch) {
   if (batch.cut != nullptr && is_invisible(*batch.cut)) return;
   const std::array<uint16_t, 3> plain = colour_of(batch);
-  const uint32_t paint =
-      batch.paint != nullptr ? paint_number(*batch.paint, &out_.paints) : kOneColour;
+  const uint32_t paint = batch.paint != nullptr ? number_of(*batch.paint) : kOneColour;
   for (size_t k = 0; k < batch.triangles.size(); ++k) {
     PaintedTriangle t;
     for (size_t i = 0; i < 3; ++i) {
@@ -78,6 +60,32 @@ void SceneReader::read(const TriangleBatch& batch) {
     out_.is_empty = false;
     out_.box.add(box);
     keep(t);
+  }
+}
+
+uint32_t SceneReader::number_of(const Paint& paint) {
+  const PaintKey key = {paint.image.get(), paint.wrap_u, paint.wrap_v, paint.nearest, paint.factor};
+  const auto [entry, is_new] = numbers_.try_emplace(key, uint32_t(out_.paints.size()));
+  if (is_new) out_.paints.push_back(paint);
+  return entry->second;
+}
+
+void SceneReader::paint_corners(const TriangleBatch& batch, size_t k, uint32_t paint,
+                                PaintedTriangle* t) {
+  const CornerColours& colours = batch.corner_colours[k];
+  if (batch.paint->image && !std::ranges::all_of(batch.texture[k], is_placeable)) {
+    // Nowhere in its texture, so it has none.
+    Paint plain;
+    plain.factor = batch.paint->factor;
+    TriangleBatch untextured = batch;
+    untextured.paint = &plain;
+    return paint_corners(untextured, k, number_of(plain), t);
+  }
+  const auto one = one_colour(*batch.paint, colours);
+  t->paint = one ? kOneColour : paint;
+  for (size_t i = 0; i < 3; ++i) {
+    t->corners[i].colour = one ? *one : colours[i];
+    if (batch.paint->image) t->corners[i].texture = batch.texture[k][i];
   }
 }
 

@@ -1,7 +1,9 @@
 // A scene with what colours it, snapped: triangles in memory, or in bins if they are many.
 #pragma once
 
+#include <map>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "builder/colours/cube_share.h"
@@ -37,6 +39,11 @@ class SceneReader {
  private:
   static constexpr const char* kPurpose = "triangles with colours";
 
+  // A paint as a key: its image is kept alive by the paints.
+  using PaintKey = std::tuple<const LinearImage*, Wrap, Wrap, bool, std::array<double, 3>>;
+
+  uint32_t number_of(const Paint& paint);
+  void paint_corners(const TriangleBatch& batch, size_t k, uint32_t paint, PaintedTriangle* t);
   void keep(const PaintedTriangle& t);
 
   const Grid& grid_;
@@ -46,6 +53,7 @@ class SceneReader {
   int bin_depth_;
   Workspace& workspace_;
   PaintedScene& out_;
+  std::map<PaintKey, uint32_t> numbers_;  // of out_.paints
 };
 
 }  // namespace svdag

@@ -12,14 +12,15 @@ struct PackedColour {
   uint8_t level, flags;
   uint16_t linear[3];
 };
-static_assert(sizeof(PackedColour) == 16 && 64 % sizeof(PackedColour) == 0);
+static_assert(sizeof(PackedColour) == SpilledColours::kEntryBytes);
+static_assert(64 % sizeof(PackedColour) == 0);
 
 constexpr uint8_t kHasColour = 1, kIsConstant = 2;
 
 }  // namespace
 
 void SpilledColours::add(std::span<const CubeColour> entries) {
-  if (!writer_) writer_.emplace(scratch_.transient(), scratch_.new_streams(), scratch_.budget());
+  if (!writer_) writer_.emplace(scratch_.runs(), scratch_.new_streams(), scratch_.budget());
   for (const CubeColour& entry : entries) {
     PackedColour packed{
         entry.morton,
@@ -31,16 +32,19 @@ void SpilledColours::add(std::span<const CubeColour> entries) {
   }
 }
 
-void SpilledColours::finish() {
-  if (!writer_) return;
-  reader_.emplace(scratch_.transient(), writer_->finish(), scratch_.budget());
+SpillStream SpilledColours::cut() {
+  if (!writer_) return {};
+  streams_.push_back(writer_->finish());
   writer_.reset();
+  return streams_.back();
 }
 
 std::span<const CubeColour> SpilledColours::next() {
   entries_.clear();
-  if (!reader_) return entries_;
-  const std::span<std::byte> block = reader_->next();
+  std::span<std::byte> block;
+  if (reader_) block = reader_->next();
+  for (; block.empty() && next_ < streams_.size(); block = reader_->next())
+    reader_.emplace(scratch_.runs(), streams_[next_++], scratch_.budget());
   for (size_t at = 0; at < block.size(); at += sizeof(PackedColour)) {
     PackedColour packed;
     std::memcpy(&packed, &block[at], sizeof packed);

@@ -5,14 +5,23 @@
 #include "builder/octree/morton.h"
 
 namespace svdag {
+namespace {
 
-UntouchedNodes::UntouchedNodes(const DagView& dag, const Grid& grid, Rule rule, int level)
+constexpr const char* kPurpose = "the counts of cubes without a triangle";
+constexpr uint64_t kNodesAtOnce = 4096;
+constexpr uint64_t kBytesPerNode = 64;  // of a map, with its buckets while they are doubled
+
+}  // namespace
+
+UntouchedNodes::UntouchedNodes(const DagView& dag, const Grid& grid, Rule rule, int level,
+                               MemoryBudget* budget)
     : dag_(dag),
       grid_(grid),
       is_solid_(is_solid(rule)),
       level_(level),
       walk_(dag, dag.levels),
-      counts_(dag.levels) {}
+      counts_(dag.levels),
+      memory_(budget->reserve(0, kPurpose)) {}
 
 void UntouchedNodes::add(const CoveredNode& node, std::vector<CubeColour>* out) {
   const std::lock_guard lock(mutex_);
@@ -49,7 +58,10 @@ uint64_t UntouchedNodes::count(const CoveredNode& node) {
   uint64_t sum = 0;
   for (uint32_t mask = covered_children(dag_, node); mask != 0; mask &= mask - 1)
     sum += count(covered_child(dag_, node, unsigned(std::countr_zero(mask))));
-  if (is_stored) counts_[size_t(node.cube.level)][node.content] = sum;
+  if (!is_stored) return sum;
+  if (known_ == room_) memory_.resize((room_ += kNodesAtOnce) * kBytesPerNode, kPurpose);
+  ++known_;
+  counts_[size_t(node.cube.level)][node.content] = sum;
   return sum;
 }
 

@@ -10,13 +10,14 @@
 #include "io/dag/colours/cube_colour.h"
 #include "io/dag/cube_walk.h"
 #include "io/dag/format.h"
+#include "streaming/memory/memory_budget.h"
 
 namespace svdag {
 
 class UntouchedNodes {
  public:
   // `level`: the colour level. `dag` and `grid` must outlive this.
-  UntouchedNodes(const DagView& dag, const Grid& grid, Rule rule, int level);
+  UntouchedNodes(const DagView& dag, const Grid& grid, Rule rule, int level, MemoryBudget* budget);
 
   // Appends an entry without colour, or counts cubes that should have had one. Thread-safe.
   void add(const CoveredNode& node, std::vector<CubeColour>* out);
@@ -35,6 +36,8 @@ class UntouchedNodes {
   std::mutex mutex_;
   CubeWalk walk_;
   std::vector<std::unordered_map<uint64_t, uint64_t>> counts_;  // [level], by index
+  MemoryBudget::Reservation memory_;                            // of counts_
+  uint64_t known_ = 0, room_ = 0;                               // nodes in counts_, and reserved
   uint64_t missing_ = 0;
 };
 

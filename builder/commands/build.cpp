@@ -12,10 +12,10 @@
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
+#include "streaming/file/checksum.h"
 #include "streaming/file/command_files.h"
 #include "streaming/printable.h"
 #include "streaming/process/interrupt.h"
-#include "streaming/spill/scratch_dir.h"
 
 namespace svdag {
 namespace {
@@ -67,6 +67,20 @@ Json memory_json(const BuildReport& r) {
             {"sort", p.sort.peak},
             {"merge", p.merge.peak},
             {"write", p.write.peak}}}};
+}
+
+// Null without colours.
+Json colours_json(const std::optional<ColourReport>& colours) {
+  if (!colours) return nullptr;
+  const Header& header = colours->header;
+  return {{"level", header.colour_level},
+          {"count", header.colour_count},
+          {"bytes", header.chunks_bytes + header.directory_bytes},
+          {"error", double(header.colour_error) / kColourErrorUnit},
+          {"hash", to_hex(header.colour_hash)},
+          {"texels_per_cube", colours->texels_per_cube},
+          {"seconds", colours->seconds},
+          {"resumed", colours->resumed}};
 }
 
 double bits_per_voxel(const BuildReport& r) {
@@ -124,6 +138,7 @@ std::string report_json(const BakeCommand& config, const BuildReport& r) {
                {"file_bytes", r.file_bytes},
                {"bits_per_voxel", bits_per_voxel(r)},
                {"content_hash", r.content_hash},
+               {"colours", colours_json(r.colours)},
                {"threads", r.threads},
                {"seconds",
                 {{"bounds", p.bounds.seconds},
@@ -155,6 +170,10 @@ void print_summary(const BakeCommand& config, const BuildReport& r) {
               format_count(r.split.scene.triangles).c_str(), format_count(r.voxels).c_str(),
               format_count(nodes).c_str(), format_bytes(r.file_bytes).c_str(), bits_per_voxel(r),
               r.seconds);
+  if (r.colours) {
+    std::printf("  ");
+    print_colours(*r.colours);
+  }
   print_scene_notes(r.split.scene);
   if (r.rule == Rule::kSolid && r.split.volume != 0)
     std::printf("  the surface encloses %s voxels%s\n",
@@ -168,6 +187,7 @@ void print_summary(const BakeCommand& config, const BuildReport& r) {
   if (r.voxels == 0)
     std::printf("  no voxel is set: %s triangles meet the grid\n",
                 format_count(r.split.scene.triangles - r.split.outside).c_str());
+  if (r.colours) print_colour_hash(*r.colours);
   if (!config.output.verbose) return;
   const auto& p = r.phases;
   std::printf(
@@ -255,9 +275,7 @@ std::string bake_scene(const BakeCommand& command, bool in_a_batch) {
   print_summary(command, report);
   // Not in a batch: most of its bakes were not the interrupted one.
   if (!in_a_batch && command.build.unfinished == Unfinished::kResume && !report.resumed)
-    std::printf(
-        "  nothing to resume in %s: it was baked anew\n",
-        printable(ScratchDir::path_for(command.build.output, command.build.scratch)).c_str());
+    print_nothing_to_resume(command.build.output, command.build.scratch);
   return json;
 }
 

@@ -46,16 +46,18 @@ struct BakeOptions {
   bool dry_run = false;
 };
 
-void add_resume_options(CLI::App* app, BuildConfig* build) {
-  Unfinished* const unfinished = &build->unfinished;
-  CLI::Option* resume = app->add_flag_callback(
-      "--resume", [=] { *unfinished = Unfinished::kResume; },
-      "Continue an unfinished bake of this output, if there is one (with the same --scratch)");
-  app->add_flag_callback(
-         "--restart", [=] { *unfinished = Unfinished::kRestart; },
-         "Discard an unfinished bake of this output")
-      ->excludes(resume);
-  add_checkpoint(app, &build->checkpoint);
+// --colours, and the options of its pass.
+void add_colours(CLI::App* app, std::optional<ColourPassConfig>* colours) {
+  const auto pass = [colours]() -> ColourPassConfig& {
+    if (!*colours) colours->emplace();
+    return **colours;
+  };
+  const bool is_default = colours->has_value();  // of the batch
+  CLI::Option* const flag = app->add_flag_callback(
+      "--colours", [pass] { pass(); }, "Also add the colours of the scene, as svdag colour does");
+  for (CLI::Option* option : add_colour_options(app, pass)) {
+    if (!is_default) option->needs(flag);
+  }
 }
 
 void add_cache_options(CLI::App* app, CellCacheConfig* config) {
@@ -78,9 +80,10 @@ CLI::Option_group* add_bake_options(CLI::App* app, BakeCommand* bake) {
   BuildConfig* const build = &bake->build;
   CLI::Option_group* const grid = add_grid_options(app, build);
   add_layer_options(app, build);
+  add_colours(app, &build->colours);
   add_layout(app, &build->layout);
   add_resource_options(app, &build->memory, &bake->threads, &build->scratch);
-  add_resume_options(app, build);
+  add_resume_options(app, &build->unfinished, &build->checkpoint);
   add_cache_options(app, &bake->cache);
   add_no_clobber(app, &bake->output.no_clobber);
   add_quiet(app, &bake->output);

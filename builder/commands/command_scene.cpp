@@ -4,8 +4,10 @@
 
 #include "builder/farm/plan/plan_folder.h"
 #include "io/units.h"
+#include "streaming/file/checksum.h"
 #include "streaming/memory/memory_budget.h"
 #include "streaming/printable.h"
+#include "streaming/spill/scratch_dir.h"
 
 namespace svdag {
 
@@ -24,6 +26,26 @@ void print_scene_notes(const SceneCounts& counts) {
   if (counts.undeformed > 0)
     std::printf("  %s triangles are read as stored: skins and morph targets are not applied\n",
                 format_count(counts.undeformed).c_str());
+}
+
+void print_colours(const ColourReport& report) {
+  const Header& header = report.header;
+  const uint64_t bytes = header.chunks_bytes + header.directory_bytes;
+  std::printf("%s colours down to level %u, %s", format_count(header.colour_count).c_str(),
+              header.colour_level, format_bytes(bytes).c_str());
+  if (header.colour_count > 0)
+    std::printf(" (%.3g bits each)", 8 * double(bytes) / double(header.colour_count));
+  if (report.texels_per_cube > 0) std::printf(", a cube spans %.2g texels", report.texels_per_cube);
+  std::printf("\n");
+}
+
+void print_colour_hash(const ColourReport& report) {
+  std::printf("  colour hash %s\n", to_hex(report.header.colour_hash).c_str());
+}
+
+void print_nothing_to_resume(const std::string& output, const std::string& scratch) {
+  std::printf("  nothing to resume in %s: it was made anew\n",
+              printable(ScratchDir::path_for(output, scratch)).c_str());
 }
 
 std::map<std::string, uint64_t> left_out_json(const LeftOut& left_out) {

@@ -16,6 +16,10 @@ namespace svdag {
 // read, one for each kind of what a reader left out, and one if triangles are undeformed (skins and
 // morph targets are not applied).
 void print_scene_notes(const SceneCounts& counts);
+// The rest of a line: how many colours, and how large.
+void print_colours(const ColourReport& report);
+void print_colour_hash(const ColourReport& report);
+void print_nothing_to_resume(const std::string& output, const std::string& scratch);
 // For reports: the counts that are not 0, by name.
 std::map<std::string, uint64_t> left_out_json(const LeftOut& left_out);
 

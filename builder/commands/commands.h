@@ -10,13 +10,12 @@
 
 #include "builder/build.h"
 #include "builder/cache/cell_cache.h"
-#include "builder/colours/colour_file.h"
+#include "builder/colour_file.h"
 #include "builder/edit/edit.h"
 #include "builder/farm/engines/farm_engine.h"
 #include "builder/farm/engines/run_step.h"
 #include "builder/farm/planner/make_plan.h"
 #include "builder/merge/merge_runs.h"
-#include "io/dag/colours/colour_writer.h"
 #include "io/dag/graph/selection.h"
 #include "io/dag/pack/pack.h"
 #include "io/help/manual.h"
@@ -126,8 +125,7 @@ struct EditCommand {
 // svdag colour FILE SCENE -o OUT.
 struct ColourCommand {
   ColourFileConfig colours;
-  uint32_t error = ColourSettings{}.error;  // the largest, in units of 1/kColourErrorUnit step
-  size_t threads = 0;                       // 0: all processors
+  size_t threads = 0;  // 0: all processors
   OutputConfig output;
 };
 

@@ -57,22 +57,10 @@ void add_colour(CLI::App* program, Command* command) {
   takes_files(app->add_option("-o,--output", colours->output, "The .svdag to write"), {".svdag"})
       ->required()
       ->type_name("OUT");
-  from_to(app->add_option_function<int>(
-              "--colour-level", [=](int level) { colours->pass.level = level; },
-              "The finest cubes with a colour: 2^K along an edge of the grid (default: the level "
-              "at which a cube spans one to two texels)"),
-          kMinColourLevel, 20)
-      ->type_name("K");
-  app->add_option_function<double>(
-         "--colour-error",
-         [=](double steps) {
-           if (!(steps >= 0 && steps <= 255)) fail_usage("--colour-error: choose 0 to 255 steps");
-           config->error = uint32_t(steps * kColourErrorUnit);
-         },
-         "Largest error of a colour, of 255 steps; 0 is lossless (default: 9)")
-      ->type_name("STEPS");
+  add_colour_options(app, [colours]() -> ColourPassConfig& { return colours->pass; });
   add_scene_options(app, &colours->scene);
   add_resource_options(app, &colours->memory, &config->threads, &colours->scratch);
+  add_resume_options(app, &colours->unfinished, &colours->checkpoint);
   add_no_clobber(app, &config->output.no_clobber);
   add_quiet(app, &config->output);
   add_progress(app, &config->output);

@@ -68,7 +68,7 @@ int run_command(int argc, char** argv) {
   } catch (Interrupted& interrupted) {
     static std::string message;  // lives until it is printed
     const std::string_view name = argc > 1 ? argv[1] : "";
-    const bool builds = name == "build" || name == "batch";
+    const bool builds = name == "build" || name == "batch" || name == "colour";
     if (builds && interrupted.resumable && interrupted.resume_message == nullptr) {
       message = "stopped; to continue: " + resuming_line(argc, argv);
       interrupted.resume_message = message.c_str();

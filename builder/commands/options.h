@@ -4,6 +4,9 @@
 // Only *_options.cpp and main.cpp include CLI11, which takes 6 s to compile.
 #pragma once
 
+#include <array>
+#include <functional>
+
 #include "builder/commands/commands.h"
 
 namespace CLI {
@@ -43,6 +46,11 @@ void add_scene_options(CLI::App* app, SceneConfig* scene);
 void add_resource_options(CLI::App* app, uint64_t* memory, size_t* threads, std::string* scratch,
                           const char* own_scratch = "OUT.scratch",
                           const char* threads_text = "Threads (default: all processors)");
+// Adds --resume, --restart and --checkpoint.
+void add_resume_options(CLI::App* app, Unfinished* unfinished, double* checkpoint);
+// Adds --colour-level and --colour-error, and returns them. `pass`: where they are set.
+std::array<CLI::Option*, 2> add_colour_options(CLI::App* app,
+                                               const std::function<ColourPassConfig&()>& pass);
 // Adds --checkpoint.
 CLI::Option* add_checkpoint(CLI::App* app, double* seconds);
 // Adds --frames; before the grid and layer options.

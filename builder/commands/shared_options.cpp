@@ -104,6 +104,39 @@ CLI::Option* add_checkpoint(CLI::App* app, double* seconds) {
       ->type_name("SECONDS");
 }
 
+void add_resume_options(CLI::App* app, Unfinished* unfinished, double* checkpoint) {
+  CLI::Option* resume = app->add_flag_callback(
+      "--resume", [=] { *unfinished = Unfinished::kResume; },
+      "Continue unfinished work on this output, if there is any (with the same --scratch)");
+  app->add_flag_callback(
+         "--restart", [=] { *unfinished = Unfinished::kRestart; },
+         "Discard unfinished work on this output")
+      ->excludes(resume);
+  add_checkpoint(app, checkpoint);
+}
+
+std::array<CLI::Option*, 2> add_colour_options(CLI::App* app,
+                                               const std::function<ColourPassConfig&()>& pass) {
+  CLI::Option* const level =
+      from_to(app->add_option_function<int>(
+                  "--colour-level", [pass](int k) { pass().level = k; },
+                  "The finest cubes with a colour: 2^K along an edge of the grid (default: the "
+                  "level at which a cube spans one to two texels)"),
+              kMinColourLevel, 20)
+          ->type_name("K");
+  CLI::Option* const error =
+      app->add_option_function<double>(
+             "--colour-error",
+             [pass](double steps) {
+               if (!(steps >= 0 && steps <= 255))
+                 fail_usage("--colour-error: choose 0 to 255 steps");
+               pass().error = uint32_t(steps * kColourErrorUnit);
+             },
+             "Largest error of a colour, of 255 steps; 0 is lossless (default: 9)")
+          ->type_name("STEPS");
+  return {level, error};
+}
+
 void add_frames(CLI::App* app, BuildConfig* build) {
   add_frames(app, &build->scene, [build] {
     build->layers = LayerKind::kFrame;

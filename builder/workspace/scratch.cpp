@@ -55,6 +55,14 @@ void Scratch::resume(size_t block_bytes, uint32_t triangle_blocks, uint32_t run_
   runs_ = open_existing("runs", run_blocks);
 }
 
+void Scratch::remove_saved() {
+  const std::lock_guard lock(mutex_);
+  triangles_.reset();
+  runs_.reset();
+  folder_->remove("triangles");
+  folder_->remove("runs");
+}
+
 uint64_t Scratch::sum(uint64_t (SpillFile::*bytes)() const) const {
   uint64_t total = 0;
   for (const auto* file : {&triangles_, &runs_, &transient_}) {

@@ -42,6 +42,9 @@ class Scratch {
   void resume(size_t block_bytes, uint32_t triangle_blocks, uint32_t run_blocks,
               uint64_t next_stream);
 
+  // Removes `triangles` and `runs`, which nothing refers to.
+  void remove_saved();
+
   // Of all files so far: the sum of their largest sizes, and the bytes written and read.
   uint64_t peak_bytes() const { return sum(&SpillFile::peak_bytes); }
   uint64_t written_bytes() const { return sum(&SpillFile::written_bytes); }

@@ -15,6 +15,8 @@ namespace svdag {
 
 // Name of the journal of a bake (builder/bake/checkpoint.h) in its scratch folder.
 constexpr const char* kJournalName = "journal";
+// Name of the file of a bake that waits for its colours, there.
+constexpr const char* kBakedName = "baked.svdag";
 // The hint of clear() for commands other than a bake.
 constexpr const char* kUnfinishedHint =
     "finish or discard it first with svdag build, or choose another output";

@@ -132,6 +132,11 @@ File ScratchDir::create(const std::string& name) {
   return folder_.create(name);
 }
 
+std::string ScratchDir::path_of(const std::string& name) {
+  created_files_.insert(name);
+  return path() + "/" + name;
+}
+
 void ScratchDir::remove(const std::string& name) {
   folder_.remove(name);
   created_files_.erase(name);

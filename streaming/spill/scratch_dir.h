@@ -62,6 +62,8 @@ class ScratchDir {
   File create(const std::string& name);
   // Opens an existing file for reading and writing.
   File open(const std::string& name) { return folder_.open(name); }
+  // Path of a file that another writer creates in the folder, which is removed like its own.
+  std::string path_of(const std::string& name);
   // Removes a file, if it exists.
   void remove(const std::string& name);
   // Removes all files except the lock.

@@ -4,6 +4,7 @@
 
 Constants are the guarantees of the program; change one to make a test stricter.
 """
+import hashlib
 import os
 import pathlib
 import re
@@ -59,7 +60,19 @@ SAVING = Bake("saving", ["hairball", "-n", "20K"], ["-r", "1K", "-m", "8M", "-j"
 # Long enough to be interrupted, with work to resume.
 HALF_A_SECOND = Bake("half a second", ["hairball", "-n", "100K"], ["-r", "8K", "-m", "32M", "-j", "2"])
 A_SECOND = Bake("a second", ["hairball", "-n", "100K"], ["-r", "16K", "-m", "1G", "-j", "2", "--checkpoint", "0.1"])
+# Its second half is the pass that adds colours, which saves work, too.
+COLOURS = Bake("colours", ["hairball", "-n", "20K"], ["-r", "2K", "-m", "32M", "-j", "2", "--colours", "--checkpoint", "0.05"])
 SECONDS = Bake("some seconds", ["hairball", "-n", "1M"], ["-r", "8K", "-m", "128M", "-j", "2"])
+
+
+def paint(ply):
+    """Gives the vertices of a binary .ply, which have positions only, colours that are noise."""
+    header, vertices = ply.read_bytes().split(b"end_header\n", 1)
+    count = int(re.search(rb"element vertex (\d+)", header)[1])
+    size = {b"float": 12, b"double": 24}[re.search(rb"property (\w+) x", header)[1]]
+    header = re.sub(rb"(property \w+ z\n)", rb"\1property uchar red\nproperty uchar green\nproperty uchar blue\n", header)
+    painted = [vertices[size * i:size * (i + 1)] + hashlib.md5(b"%d" % i).digest()[:3] for i in range(count)]
+    ply.write_bytes(header + b"end_header\n" + b"".join(painted) + vertices[size * count:])
 
 
 class BakeFixture:
@@ -72,6 +85,8 @@ class BakeFixture:
         self.scene = self.root / "scene.ply"
         self.make_scratch(self.root)
         subprocess.run([BUILD / "svdag-scene", *bake.scene, "-q", "-o", self.scene], check=True)
+        if "--colours" in bake.options:
+            paint(self.scene)
         for i, run in enumerate(bake.inputs() if bake.parts else (), 1):
             subprocess.run([BUILD / "svdag", "build", "scene.ply", "-o", run, "-q", *bake.grid, "--part",
                             f"{i}/{bake.parts}"], cwd=self.root, check=True)

@@ -12,7 +12,8 @@ from moments import Moments, hit, time_of
 
 DOUBLE = 5  # every fifth bake is killed again while it resumes
 # Bakes, and the number of kills of each. Their memory is so small that they spill and have work to resume.
-BAKES = [(bakes.A_SECOND, 900), (bakes.SECONDS, 100)] if bakes.LONG else [(bakes.HALF_A_SECOND, 10)]
+BAKES = ([(bakes.A_SECOND, 900), (bakes.SECONDS, 100), (bakes.COLOURS, 200)] if bakes.LONG
+         else [(bakes.HALF_A_SECOND, 10), (bakes.COLOURS, 10)])
 
 
 def run(fixture, folder, *more):

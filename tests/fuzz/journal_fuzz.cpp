@@ -20,11 +20,21 @@ void write_and_read_again(const SavedBake& saved) noexcept {
   if (saved.split) records.push_back(record_of(SavedKind::kSplit, split_record(*saved.split)));
   for (const BakedRun& run : saved.runs)
     records.push_back(record_of(SavedKind::kRun, run_record(run)));
+  if (saved.baked) {
+    records.push_back(record_of(SavedKind::kBaked, baked_record(*saved.baked)));
+    if (saved.split) records.push_back(record_of(SavedKind::kSplit, split_record(*saved.split)));
+    for (const BakedRun& run : saved.runs)
+      records.push_back(record_of(SavedKind::kRun, run_record(run)));
+  }
+  for (const SpillStream& colours : saved.colours)
+    records.push_back(record_of(SavedKind::kColours, colours_record(saved.coloured, colours)));
   const SavedBake again = read_saved(records, "again");
-  const bool same = again.description == saved.description && again.grid == saved.grid &&
-                    again.runs.size() == saved.runs.size() &&
-                    again.split.has_value() == saved.split.has_value() &&
-                    again.run_blocks == saved.run_blocks;
+  const bool same =
+      again.description == saved.description && again.grid == saved.grid &&
+      again.runs.size() == saved.runs.size() &&
+      again.split.has_value() == saved.split.has_value() &&
+      again.baked.has_value() == saved.baked.has_value() && again.coloured == saved.coloured &&
+      again.colours.size() == saved.colours.size() && again.run_blocks == saved.run_blocks;
   if (!same) std::abort();
 }
 

@@ -291,7 +291,8 @@ class GltfReader {
         texture_of(cut, paint, primitive, count, &texture_memory);
     std::vector<VertexColour> colours;
     if (paint != nullptr)
-      colours = vertex_colours(primitive, count, &buffers_, options_.budget, &colour_memory);
+      colours =
+          vertex_colours(primitive, count, &buffers_, options_.budget, &colour_memory, &left_out_);
     std::vector<Point> points;
     points.reserve(size_t(count));
     pose_.visit_vertices(node, primitive, positions, world,
@@ -309,6 +310,7 @@ class GltfReader {
         const TextureCorners corners =
             texture.empty() ? TextureCorners() : TextureCorners{texture[a], texture[b], texture[c]};
         if (paint == nullptr) return out_.add_cut(t, corners);
+        if (!std::ranges::all_of(corners, is_placeable)) left_out_.add(Omission::kTexturePoints);
         out_.add_painted(
             t, corners,
             colours.empty() ? kWhiteCorners : CornerColours{colours[a], colours[b], colours[c]});
@@ -334,11 +336,10 @@ class GltfReader {
                                        MemoryBudget::Reservation* memory) {
     if (cut != nullptr && has_texture_points(cut->use, primitive))
       return texture_points(cut->use, cut->cut.image->width(), cut->cut.image->height(), primitive,
-                            count, " (--no-cutouts bakes materials whole)", &buffers_,
-                            options_.budget, memory);
+                            count, false, &buffers_, options_.budget, memory);
     if (paint == nullptr || !paint->paint.image) return {};
     return texture_points(paint->use, paint->paint.image->width(), paint->paint.image->height(),
-                          primitive, count, "", &buffers_, options_.budget, memory);
+                          primitive, count, true, &buffers_, options_.budget, memory);
   }
 
   void draw_soup(const Accessor& positions, uint64_t mode, InstanceStream* instances) {

@@ -44,7 +44,7 @@ Colour factor_colour(const JsonObject& material) {
 
 std::vector<VertexColour> vertex_colours(const JsonObject& primitive, uint64_t vertices,
                                          GltfBuffers* buffers, MemoryBudget* budget,
-                                         MemoryBudget::Reservation* memory) {
+                                         MemoryBudget::Reservation* memory, LeftOut* left_out) {
   std::vector<VertexColour> colours;
   const JsonObject attributes = primitive.object("attributes");
   if (!attributes.has("COLOR_0")) return colours;
@@ -64,6 +64,7 @@ std::vector<VertexColour> vertex_colours(const JsonObject& primitive, uint64_t v
     for (size_t i = 0; i < n; ++i) {
       const double* const value = &window[components * i];
       colours.push_back({light16(value[0]), light16(value[1]), light16(value[2])});
+      left_out->add(Omission::kBrightColours, value[0] > 1 || value[1] > 1 || value[2] > 1);
     }
   }
   return colours;

@@ -73,8 +73,8 @@ bool has_texture_points(const GltfTextureUse& use, const JsonObject& primitive) 
 
 std::vector<TexturePoint> texture_points(const GltfTextureUse& use, int64_t width, int64_t height,
                                          const JsonObject& primitive, uint64_t vertices,
-                                         const char* hint, GltfBuffers* buffers,
-                                         MemoryBudget* budget, MemoryBudget::Reservation* memory) {
+                                         bool anywhere, GltfBuffers* buffers, MemoryBudget* budget,
+                                         MemoryBudget::Reservation* memory) {
   *memory = budget->reserve(vertices * sizeof(TexturePoint), "texture coordinates");
   std::vector<TexturePoint> points;
   points.reserve(size_t(vertices));
@@ -89,11 +89,10 @@ std::vector<TexturePoint> texture_points(const GltfTextureUse& use, int64_t widt
   while (const size_t n = stream.read(std::span<double>(window))) {
     for (size_t i = 0; i < n; ++i) {
       const TexturePoint p = use.place(window[2 * i], window[2 * i + 1], width, height);
-      if (!is_placeable(p))
+      if (!anywhere && !is_placeable(p))
         fail_input(primitive.path(),
-                   std::string("has a texture coordinate that is NaN, infinite or beyond 2^40 "
-                               "texels") +
-                       hint);
+                   "has a texture coordinate that is NaN, infinite or beyond 2^40 texels "
+                   "(--no-cutouts bakes materials whole)");
       points.push_back(p);
     }
   }

@@ -45,11 +45,11 @@ std::optional<GltfTextureUse> texture_use_of(const GltfDocument& document,
 // Whether `primitive` has the coordinates that `use` names.
 bool has_texture_points(const GltfTextureUse& use, const JsonObject& primitive);
 // The texture coordinates of all vertices of `primitive`, which has them, in texels of an image of
-// this size, reserved in *memory. Coordinates that are not finite, or beyond 2^40 texels, are an
-// Error (kBadInput) that ends in `hint`.
+// this size, reserved in *memory. Unless they may be anywhere, those that are not placeable are an
+// Error (kBadInput), with the way out of a cut-out.
 std::vector<TexturePoint> texture_points(const GltfTextureUse& use, int64_t width, int64_t height,
                                          const JsonObject& primitive, uint64_t vertices,
-                                         const char* hint, GltfBuffers* buffers,
-                                         MemoryBudget* budget, MemoryBudget::Reservation* memory);
+                                         bool anywhere, GltfBuffers* buffers, MemoryBudget* budget,
+                                         MemoryBudget::Reservation* memory);
 
 }  // namespace svdag

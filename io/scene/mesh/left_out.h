@@ -18,6 +18,8 @@ enum class Omission : uint8_t {
   kVertexAlpha,
   kMaterialFiles,
   kVertexColours,
+  kBrightColours,
+  kTexturePoints,
   kUnweighted,
   kChannels,
   kCornersLeft,
@@ -47,6 +49,10 @@ constexpr OmissionKind kOmissions[] = {
      "lines name .mtl files outside the scene's folder (--allow-outside reads them) or after 64 "
      "KiB"},
     {"vertex_colours", "meshes have colours of vertices, which are not read"},
+    {"bright_colours", "vertices have a colour beyond 1, which is read as 1"},
+    {"texture_points",
+     "triangles have the colour of their material alone: a texture coordinate is NaN, infinite or "
+     "beyond 2^40 texels"},
     {"unweighted", "skinned vertices without weights are placed by their node"},
     {"channels", "channels of animations are not followed: they move no node"},
     {"corners_left", "corners after the last whole triangle of a mesh are left out"},

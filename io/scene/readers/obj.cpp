@@ -180,6 +180,8 @@ class ObjReader {
     if (!is_coloured_) return out_.vertex(p);
     VertexColour colour = {kWhite16, kWhite16, kWhite16};
     for (size_t c = 0; c < 3 && n >= 3; ++c) colour[c] = light16_of_srgb(more[n - 3 + c]);
+    left_out_.add(Omission::kBrightColours,
+                  n >= 3 && std::max({more[n - 3], more[n - 2], more[n - 1]}) > 1);
     out_.vertex(p, colour);
   }
 

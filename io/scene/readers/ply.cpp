@@ -16,8 +16,9 @@ template <class Values>
 class PlyBody {
  public:
   // `coloured`: the colours of vertices are wanted.
-  PlyBody(const File& file, const PlyHeader& header, bool coloured, MeshWriter* out)
-      : file_(file), header_(header), is_coloured_(coloured), out_(*out) {}
+  PlyBody(const File& file, const PlyHeader& header, bool coloured, MeshWriter* out,
+          LeftOut* left_out)
+      : file_(file), header_(header), is_coloured_(coloured), out_(*out), left_out_(*left_out) {}
 
   void read(PlyPlace begin) {
     const auto& elements = header_.elements;
@@ -107,11 +108,10 @@ class PlyBody {
     return false;
   }
 
-  // The linear light of a value of sRGB: a number of 0 .. 1, or a whole number of the range of 16
-  // bits if the type has 16, else of 8.
-  static uint16_t light_of_value(double value, PlyType type) {
-    const double most = !is_integer(type) ? 1 : size_of(type) == 2 ? 65535 : 255;
-    return light16_of_srgb(value / most);
+  // 1 is the most that a value of sRGB may be, or of whole numbers the most of 16 bits if the type
+  // has 16, else of 8.
+  static double share_of_range(double value, PlyType type) {
+    return value / (!is_integer(type) ? 1 : size_of(type) == 2 ? 65535 : 255);
   }
 
   void read_coloured(Values& values, const PlyElement& element,
@@ -119,6 +119,7 @@ class PlyBody {
     for (uint64_t row = 0; row < element.count; ++row) {
       std::array<double, 7> read{};
       VertexColour colour{};
+      bool is_bright = false;
       for (size_t i = 0; i < element.properties.size(); ++i) {
         const PlyType type = element.properties[i].type;
         const size_t to = size_t(coordinate[i]);
@@ -127,8 +128,12 @@ class PlyBody {
           continue;
         }
         read[to] = values.number(type);
-        if (to > 3) colour[to - 4] = light_of_value(read[to], type);
+        if (to <= 3) continue;
+        const double value = share_of_range(read[to], type);
+        colour[to - 4] = light16_of_srgb(value);
+        is_bright |= value > 1;
       }
+      left_out_.add(Omission::kBrightColours, is_bright);
       out_.vertex({read[0], read[1], read[2]}, colour);
     }
   }
@@ -177,6 +182,7 @@ class PlyBody {
   const PlyHeader& header_;
   bool is_coloured_;
   MeshWriter& out_;
+  LeftOut& left_out_;
   std::vector<PlyPlace> places_;  // of the elements before the vertices, and of what follows those
 };
 
@@ -188,12 +194,12 @@ LeftOut read_ply(const File& file, const ReadOptions& options, MeshWriter* out) 
   const PlyHeader header = read_ply_header(&stream);
   const PlyPlace body{stream.offset(), header.lines + 1};
   const bool coloured = options.paints != nullptr;
-  if (header.format == PlyFormat::kAscii) {
-    PlyBody<PlyTextValues>(file, header, coloured, out).read(body);
-  } else {
-    PlyBody<PlyBinaryValues>(file, header, coloured, out).read(body);
-  }
   LeftOut left_out;
+  if (header.format == PlyFormat::kAscii) {
+    PlyBody<PlyTextValues>(file, header, coloured, out, &left_out).read(body);
+  } else {
+    PlyBody<PlyBinaryValues>(file, header, coloured, out, &left_out).read(body);
+  }
   left_out.add(Omission::kHeaderLines, header.unknown_lines);
   for (const PlyElement& element : header.elements) {
     if (element.name == "edge" && element.count > 0) left_out.add(Omission::kPointsOrLines);

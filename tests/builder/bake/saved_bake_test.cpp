@@ -91,6 +91,35 @@ TEST(SavedBake, IsReadAsItWasWritten) {
   EXPECT_EQ(saved.runs[0].run.nodes[2].spilled->number, 6U);
 }
 
+// What was spilled for a finished bake is not needed for its colours.
+TEST(SavedBake, AFinishedBakeHasCountsAndColoursOnly) {
+  auto records = small_journal();
+  records.push_back(record_of(SavedKind::kBaked, baked_record(small_split().counts)));
+  records.push_back(record_of(SavedKind::kColours, colours_record(64, {9, 48, {2}})));
+  records.push_back(record_of(SavedKind::kColours, colours_record(512, {})));
+  const SavedBake saved = read(records);
+  EXPECT_TRUE(saved.has_work());
+  EXPECT_FALSE(saved.split);
+  EXPECT_TRUE(saved.runs.empty());
+  EXPECT_EQ(saved.baked->scene.triangles, 18U);
+  EXPECT_EQ(saved.coloured, 512U);
+  ASSERT_EQ(saved.colours.size(), 2U);
+  EXPECT_EQ(saved.colours[0].number, 9U);
+  EXPECT_EQ(saved.triangle_blocks, 0U);
+  EXPECT_EQ(saved.run_blocks, 3U);
+  const auto with = [&](const RecordWriter& colours) {
+    auto changed = records;
+    changed.push_back(record_of(SavedKind::kColours, colours));
+    return changed;
+  };
+  EXPECT_SVDAG_ERROR(read(with(colours_record(511, {}))), ExitCode::kOutput, "not in the grid");
+  EXPECT_SVDAG_ERROR(read(with(colours_record(32769, {}))), ExitCode::kOutput, "not in the grid");
+  EXPECT_SVDAG_ERROR(read(with(colours_record(512, {9, 17, {3}}))), ExitCode::kOutput,
+                     "within an entry");
+  records.push_back(records[4]);
+  EXPECT_SVDAG_ERROR(read(records), ExitCode::kOutput, "baked twice");
+}
+
 TEST(SavedBake, AJournalWithoutRecordsHasNone) {
   EXPECT_EQ(read({}).block_bytes, 0U);
 }
@@ -176,7 +205,7 @@ TEST(SavedBake, ItSaysWhatIsWrong) {
   EXPECT_SVDAG_ERROR(read(run_with([](B b) { b->run.bricks.spilled->bytes = 1 << 20; })),
                      ExitCode::kOutput, "impossible size");
   auto records = small_journal();
-  records[3].kind = 5;
+  records[3].kind = 7;
   EXPECT_SVDAG_ERROR(read(records), ExitCode::kOutput, "unknown kind");
   records = small_journal();
   std::swap(records[0], records[1]);

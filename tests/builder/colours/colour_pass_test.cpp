@@ -63,7 +63,7 @@ class ColourPass : public testing::Test {
   }
 
   Colours pass(const DagFile& file, const std::string& path, int level, size_t threads = 1,
-               uint64_t memory = 256 * kMiB) {
+               uint64_t memory = 256 * kMiB, uint64_t begin = 0) {
     Workspace workspace(folder_.path() + "/scratch", memory, threads);
     workspace.folder()->clear();
     const SpillSpace vertices = workspace.vertices();
@@ -72,7 +72,14 @@ class ColourPass : public testing::Test {
     Progress progress;
     const std::vector<LatticePoint> cubes = covered(file, level);
     Colours colours;
+    const int below = 3 * (int(file.view().levels) - level);
     size_t next = 0;
+    const auto move_to = [&](uint64_t code) {
+      while (next < cubes.size() && morton(cubes[next]) << below < code) ++next;
+      return next;
+    };
+    move_to(begin);
+    ends_.clear();
     report_ = colour_cubes(
         file, scene, {level}, &workspace, &executor, &progress,
         [&](std::span<const CubeColour> entries) {
@@ -84,6 +91,13 @@ class ColourPass : public testing::Test {
                   e.has_colour, e.is_constant, {e.linear[0], e.linear[1], e.linear[2]}};
             EXPECT_GT(next, first) << "an entry out of order, or of no cube";
           }
+        },
+        begin,
+        [&](uint64_t end) {
+          const size_t passed = next;
+          EXPECT_EQ(move_to(end), passed) << "a cube before the end has no colour yet";
+          EXPECT_TRUE(next == cubes.size() || morton(cubes[next]) << below >= end);
+          ends_.push_back(end);
         });
     EXPECT_EQ(next, cubes.size());
     return colours;
@@ -165,6 +179,7 @@ class ColourPass : public testing::Test {
   TempFolder folder_;
   int files_ = 0;
   ColourPassReport report_;
+  std::vector<uint64_t> ends_;  // that pass() could be continued from
 };
 
 // Textured charts that meet at seams, duplicates, slivers, segments, colours of corners, and
@@ -222,6 +237,29 @@ std::string random_scene(uint64_t seed, size_t count, uint64_t order = 0, bool i
   return glb.bytes();
 }
 
+std::vector<TestTriangle> box(const Point& low, const Point& high) {
+  std::vector<TestTriangle> triangles;
+  for (int a = 0; a < 3; ++a) {
+    for (int side = 0; side < 2; ++side) {
+      Point p[4];
+      for (int k = 0; k < 4; ++k) {
+        p[k][a] = side == 0 ? low[a] : high[a];
+        const int u = k == 1 || k == 2, v = k >= 2;
+        p[k][(a + 1) % 3] = u == 0 ? low[(a + 1) % 3] : high[(a + 1) % 3];
+        p[k][(a + 2) % 3] = v == 0 ? low[(a + 2) % 3] : high[(a + 2) % 3];
+      }
+      for (int half = 0; half < 2; ++half) {
+        TestTriangle t;
+        t.triangle = {{p[0], p[1 + half], p[2 + half]}};
+        if (side == 0) std::swap(t.triangle.v[1], t.triangle.v[2]);
+        t.texture = {{{0, 0}, {1, 0}, {1, 1}}};
+        triangles.push_back(t);
+      }
+    }
+  }
+  return triangles;
+}
+
 TEST_F(ColourPass, IsTheReferenceWhateverTheThreadsMemoryAndOrder) {
   for (uint64_t seed = 1; seed <= 12; ++seed) {
     SCOPED_TRACE(seed);
@@ -260,6 +298,30 @@ TEST_F(ColourPass, IsTheSameFromBins) {
   }
 }
 
+// Whatever memory, threads and bins the two passes have.
+TEST_F(ColourPass, BeginsWhereAnotherOneWas) {
+  for (const Rule rule : {Rule::kConservative, Rule::kSolid}) {
+    PaintedGlb glb;
+    const int texture = glb.texture(2, 1, std::string("\xff\0\0\xff\0\xff\xff\xff", 8));
+    glb.add(glb.material({1, 0.5, 0}, texture), box(Point(0), Point(1)), false);
+    const std::string path =
+        write("scene.glb", rule == Rule::kSolid ? glb.bytes() : random_scene(7, 1500));
+    const DagFile file = bake_scene(path, 7, rule);
+    const Colours expected = pass(file, path, 7);
+    for (const uint64_t before : {256 * kMiB, 6 * kMiB}) {
+      pass(file, path, 7, 2, before);
+      const std::vector<uint64_t> ends = ends_;
+      ASSERT_GE(ends.size(), 2U);
+      for (size_t i = 0; i < ends.size(); i += 1 + ends.size() / 5) {
+        Colours rest = expected;
+        std::erase_if(rest, [&](const auto& colour) { return colour.first < ends[i]; });
+        EXPECT_EQ(pass(file, path, 7, 1, 256 * kMiB, ends[i]), rest);
+        EXPECT_EQ(pass(file, path, 7, 2, 6 * kMiB, ends[i]), rest);
+      }
+    }
+  }
+}
+
 // More triangles in one cube than fit in memory.
 TEST_F(ColourPass, ACubeMayHaveAnyNumberOfTriangles) {
   std::mt19937_64 random(3);
@@ -278,29 +340,6 @@ TEST_F(ColourPass, ACubeMayHaveAnyNumberOfTriangles) {
   const std::string path = write("scene.glb", glb.bytes());
   const DagFile file = bake_scene(path, 4);
   EXPECT_EQ(pass(file, path, 4, 2, 4 * kMiB), pass(file, path, 4));
-}
-
-std::vector<TestTriangle> box(const Point& low, const Point& high) {
-  std::vector<TestTriangle> triangles;
-  for (int a = 0; a < 3; ++a) {
-    for (int side = 0; side < 2; ++side) {
-      Point p[4];
-      for (int k = 0; k < 4; ++k) {
-        p[k][a] = side == 0 ? low[a] : high[a];
-        const int u = k == 1 || k == 2, v = k >= 2;
-        p[k][(a + 1) % 3] = u == 0 ? low[(a + 1) % 3] : high[(a + 1) % 3];
-        p[k][(a + 2) % 3] = v == 0 ? low[(a + 2) % 3] : high[(a + 2) % 3];
-      }
-      for (int half = 0; half < 2; ++half) {
-        TestTriangle t;
-        t.triangle = {{p[0], p[1 + half], p[2 + half]}};
-        if (side == 0) std::swap(t.triangle.v[1], t.triangle.v[2]);
-        t.texture = {{{0, 0}, {1, 0}, {1, 1}}};
-        triangles.push_back(t);
-      }
-    }
-  }
-  return triangles;
 }
 
 TEST_F(ColourPass, TheInsideOfASolidHasNoColour) {

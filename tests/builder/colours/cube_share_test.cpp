@@ -193,6 +193,43 @@ TEST(CubeShare, ASquareOnTheFaceHasItsTexel) {
   }
 }
 
+// However the texels lie in the cube: as the mean of a quarter of a million points.
+TEST(CubeShare, SquaresWeighTheirAreas) {
+  Paint squares = noise(8, 8);
+  squares.nearest = true;
+  const auto& finest = squares.image->levels()[0];
+  const int64_t side = int64_t(kSide);
+  for (int k = 0; k < 40; ++k) {
+    const double texels = uniform(0.3, 1.95), angle = uniform(0, 6.28);
+    const double u0 = uniform(0, 8), v0 = uniform(0, 8);
+    const double by_x = texels * std::cos(angle), by_y = texels * std::sin(angle);
+    const auto at = [&](double x, double y) {
+      return TexturePoint{u0 + by_x * x - by_y * y, v0 + by_y * x + by_x * y};
+    };
+    PaintedTriangle t;
+    t.paint = 0;
+    t.corners[0].position = {-2 * side, -2 * side, side / 2};
+    t.corners[1].position = {6 * side, -2 * side, side / 2};
+    t.corners[2].position = {-2 * side, 6 * side, side / 2};
+    t.corners[0].texture = at(-2, -2);
+    t.corners[1].texture = at(6, -2);
+    t.corners[2].texture = at(-2, 6);
+    constexpr int kPoints = 512;
+    double sum[3] = {0, 0, 0};
+    for (int i = 0; i < kPoints * kPoints; ++i) {
+      const TexturePoint p = at((i % kPoints + 0.5) / kPoints, (i / kPoints + 0.5) / kPoints);
+      const LinearImage::Texel& texel =
+          finest.at(wrapped(int64_t(std::floor(p.u)), 8, Wrap::kRepeat),
+                    wrapped(int64_t(std::floor(p.v)), 8, Wrap::kRepeat));
+      for (size_t c = 0; c < 3; ++c) sum[c] += texel[c];
+    }
+    const CubeShare share = share_of(t, {squares});
+    EXPECT_EQ(share.area, uint64_t(1) << kAreaBits);
+    for (size_t c = 0; c < 3; ++c)
+      EXPECT_NEAR(share.colour[c], sum[c] / (kPoints * kPoints), 0.005 * kWhite16) << texels;
+  }
+}
+
 TEST(CubeShare, WhatIsCutOutWeighsNothing) {
   // Columns: opaque green, transparent magenta.
   const std::array<uint8_t, 8> columns = {0, 255, 0, 255, 255, 0, 255, 10};

@@ -1,5 +1,5 @@
 // Colours for a `.svdag`: of which scene, placed how, and what is refused.
-#include "builder/colours/colour_file.h"
+#include "builder/colour_file.h"
 
 #include <gtest/gtest.h>
 
@@ -31,15 +31,9 @@ class ColourFile : public testing::Test {
     Progress progress;
     std::string log;
     try {
-      colour_file(
-          config_,
-          [&](const DagFile& file, int level, const CubeColourSource& source, const WorkRoom&) {
-            EXPECT_EQ(file.grid().levels, 5);
-            size_t entries = 0;
-            for (auto next = source(); !next.empty(); next = source()) entries += next.size();
-            log = std::to_string(level) + ": " + std::to_string(entries) + " entries";
-          },
-          &executor, &progress);
+      const ColourReport report = colour_file(config_, &executor, &progress);
+      EXPECT_EQ(DagFile::open(config_.output).grid().levels, 5);
+      log = std::to_string(report.level) + ": " + std::to_string(report.entries) + " entries";
     } catch (const Error& error) {
       return error.what();
     }
