@@ -1,10 +1,8 @@
 // `svdag convert`: another layout, or a part of a file; `svdag pack` and `svdag unpack`.
 #include <cstdio>
-#include <optional>
 
 #include "builder/commands/commands.h"
 #include "builder/run/bake_output.h"
-#include "io/dag/colours/colour_writer.h"
 #include "io/dag/graph/select.h"
 #include "io/dag/open_dag.h"
 #include "io/dag/pack/pack.h"
@@ -32,12 +30,12 @@ int run(const ConvertCommand& config) {
   const WorkRoom room{&budget, config.scratch.empty() ? folder_of(path) : config.scratch};
   const DagFile file = open_dag(config.file, {}, &room);
   const uint64_t before = File::open_read(config.file).size();
-  if (file.has_colours() && !config.selection.without_colours &&
-      !keeps_colours(file, config.selection))
-    report_dropped_colours(config.file);
   Selection selection = config.selection;
   if (config.keeps_layout) selection.layout = Layout(file.header().layout);
-  const Header header = write_selection(file, selection, path, room);
+  ParallelExecutor executor(available_processors());
+  const Header header = write_selection(file, selection, path, room, &executor);
+  if (file.has_colours() && !has_colours(header) && !selection.without_colours)
+    report_dropped_colours(config.file);
   if (!config.output.quiet)
     std::printf("%s: %s, %s, %.1f %% of %s\n  content hash %s\n", printable(path).c_str(),
                 layout_name(selection.layout), format_bytes(header.file_bytes).c_str(),
@@ -53,13 +51,8 @@ int run(const PackCommand& config) {
   AtomicFile::check(path, config.output.no_clobber);
   MemoryBudget budget(memory_or_default(config.memory));
   const WorkRoom room{&budget, folder_of(path)};
-  DagFile file = open_dag(config.file);
-  if (file.has_colours()) report_dropped_colours(config.file);
-  const DagFile chosen = select(std::move(file), config.selection, room);
-  std::optional<DagFile> bare;
-  if (chosen.has_colours()) bare.emplace(without_colours(chosen, room.folder));
-  const DagFile& plain = bare ? *bare : chosen;
   ParallelExecutor executor(threads_or_all(config.threads));
+  const DagFile plain = select(open_dag(config.file), config.selection, room, &executor);
   const uint64_t bytes = pack(plain, path, config.level, &budget, &executor);
   if (!config.output.quiet)
     std::printf("%s: %s, %.1f %% of the plain %s\n  content hash %s\n", printable(path).c_str(),

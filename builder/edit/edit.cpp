@@ -53,6 +53,15 @@ Grid combined_grid(SetOperation operation, Grid grid, const Grid& other) {
   return grid;
 }
 
+ImportReport report(const Header& result, std::initializer_list<const DagFile*> inputs) {
+  ImportReport report = report_of(result);
+  for (const DagFile* const input : inputs) {
+    if (input->has_colours() && !has_colours(result))
+      report.dropped_colours.push_back(input->path());
+  }
+  return report;
+}
+
 }  // namespace
 
 ImportReport edit(const EditConfig& config, Executor* executor) {
@@ -62,39 +71,35 @@ ImportReport edit(const EditConfig& config, Executor* executor) {
   MemoryBudget* const budget = workspace.budget();
   const WorkRoom room = workspace.room();
   const DagFile first = open_dag(config.first, {}, &room);
-  std::optional<DagFile> second;
-  if (config.second) second.emplace(open_dag(*config.second, {}, &room));
   const Selection& selection = config.selection;
-  const bool both_lack_layers = first.layers().empty() && (!second || second->layers().empty());
+  if (!config.second)
+    return report(write_selection(first, selection, config.output, room, executor), {&first});
+  const DagFile second = open_dag(*config.second, {}, &room);
+  const bool both_lack_layers = first.layers().empty() && second.layers().empty();
   const auto part = [&](const DagFile& file) {
     Selection of_file{.layers = selection.layers, .level = selection.level};
     if (file.layers().empty() && !both_lack_layers) of_file.layers.clear();
     return graph_of(file, of_file, budget);
   };
   GraphOfSets result = part(first);
-  if (second) {
-    GraphOfSets other = part(*second);
-    require_same(first, *second);
-    const Grid grid = combined_grid(*config.operation, result.nodes->grid(), other.nodes->grid());
-    LayerPairs pairs =
-        match_layers(*config.operation, {config.first, result.layers, result.nodes->roots()},
-                     {*config.second, other.layers, other.nodes->roots()});
-    result.become(std::make_unique<CombinedGraph>(*config.operation, result.nodes, other.nodes,
-                                                  grid, budget, pairs.roots));
-    if (pairs.needs_union) result.become(std::make_unique<UnitedGraph>(result.nodes, budget));
-    std::ranges::move(other.owned, std::back_inserter(result.owned));
-    result.layers = std::move(pairs.layers);
-    result.largest_snap = std::max(result.largest_snap, other.largest_snap);
-  }
+  GraphOfSets other = part(second);
+  require_same(first, second);
+  const Grid grid = combined_grid(*config.operation, result.nodes->grid(), other.nodes->grid());
+  LayerPairs pairs =
+      match_layers(*config.operation, {config.first, result.layers, result.nodes->roots()},
+                   {*config.second, other.layers, other.nodes->roots()});
+  result.become(std::make_unique<CombinedGraph>(*config.operation, result.nodes, other.nodes, grid,
+                                                budget, pairs.roots));
+  if (pairs.needs_union) result.become(std::make_unique<UnitedGraph>(result.nodes, budget));
+  std::ranges::move(other.owned, std::back_inserter(result.owned));
+  result.layers = std::move(pairs.layers);
+  result.largest_snap = std::max(result.largest_snap, other.largest_snap);
   if (selection.bounds) crop(&result, *selection.bounds, budget);
   DagWriter writer(config.output, result.nodes->grid(), first.rule(),
                    selection.layout == Layout::kCompact ? std::optional(room) : std::nullopt);
   const uint64_t voxels = reduce(result.nodes, room, executor, &writer, &result.layers).voxels;
   writer.finish(voxels, result.largest_snap, std::move(result.layers));
-  ImportReport report = report_of(writer.header());
-  if (first.has_colours()) report.dropped_colours.push_back(config.first);
-  if (second && second->has_colours()) report.dropped_colours.push_back(*config.second);
-  return report;
+  return report(writer.header(), {&first, &second});
 }
 
 }  // namespace svdag

@@ -1,8 +1,9 @@
 // Edits `.svdag` files: set operations on two grids in the same place, a crop, a coarser level.
 //
-// An edit is a graph of the selected parts of its files (io/dag/graph/select.h), combined, then
-// cropped, that is reduced like an import (io/dag/graph/reduce.h). So its result has the same bytes
-// as a bake of these voxels: canonical, minimal, and never expanded.
+// Of one file, it is a selection (io/dag/graph/select.h), which keeps the colours. Of two, it is a
+// graph of the selected parts of both, combined, then cropped, that is reduced like an import
+// (io/dag/graph/reduce.h). So its result has the same bytes as a bake of these voxels: canonical,
+// minimal, and never expanded.
 //
 // Files with layers are edited layer by layer (builder/edit/layer_pairs.h). The union of the result
 // is that of the edited unions where this is the OR of the edited layers if it was before. The

@@ -13,7 +13,7 @@ DagFile open_dag(const std::string& path, const Selection& selection, const Work
   const WorkRoom own = room != nullptr ? *room : temporary_room(&budget);
   ParallelExecutor executor(available_processors());
   DagFile file = packed ? unpack(path, own, &executor) : DagFile::open(path);
-  return selection.is_everything() ? std::move(file) : derive(file, selection, own);
+  return selection.is_everything() ? std::move(file) : derive(file, selection, own, &executor);
 }
 
 }  // namespace svdag

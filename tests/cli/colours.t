@@ -31,23 +31,50 @@ $ svdag convert compact.svdag -q -o back.svdag --layout plain && cmp back.svdag 
 | both layouts have the colours
 $ svdag convert compact.svdag -q -o bare.svdag --layout compact --no-colours && svdag convert plain.svdag -q -o small.svdag --layout compact && cmp bare.svdag small.svdag && echo "and lose them"
 | and lose them
-$ svdag-verify diff painted.svdag plain.svdag -q && echo "the same voxels"
-| the same voxels
+$ svdag-verify diff painted.svdag plain.svdag | tail -2
+| colours   only A
+| same
+$ paint_dag plain.svdag other.svdag 6 9 && svdag-verify diff painted.svdag other.svdag | tail -2
+| colours   different
+| same
+
+## colours_kept
+# Parts and coarser levels have the colours that their cubes had; packs have all.
+$ svdag-scene city -n 2K -q -o city.ply && svdag-scene scan -n 2K -q -o scan.ply
+$ svdag build city.ply scan.ply -q -o plain.svdag -r 128 --layers file
+$ paint_dag plain.svdag painted.svdag 7 9
+$ colours() { paint_dag $1 | grep "^$2 " | sort > $1.$2; }
+$ colours painted.svdag 7 && colours painted.svdag 5
+$ svdag edit painted.svdag -q -o coarse.svdag --level 6 && svdag convert painted.svdag -q -o coarse2.svdag --level 6 && cmp coarse.svdag coarse2.svdag
+$ colours coarse.svdag 5 && cmp coarse.svdag.5 painted.svdag.5 && svdag info coarse.svdag | grep -o " down to level ."
+|  down to level 5
+$ svdag edit painted.svdag -q -o part.svdag --bounds=0,0,0,40,40,40 && colours part.svdag 7
+$ comm -23 part.svdag.7 painted.svdag.7 && svdag info part.svdag | grep -o "[0-9,]* colours down to level ., .*iB"
+| 13,225 colours down to level 7, 2.0 KiB
+$ svdag-verify check part.svdag | tail -1
+| ok: sound, in canonical order and minimal
+$ svdag edit painted.svdag -q -o small.svdag --bounds=0,0,0,40,40,40 --layout compact && colours small.svdag 7 && cmp small.svdag.7 part.svdag.7
+$ svdag-verify check small.svdag | tail -1
+| ok: sound, in canonical order and minimal
+$ svdag edit painted.svdag -q -o one.svdag --layer scan.ply && colours one.svdag 7 && comm -23 one.svdag.7 painted.svdag.7
+$ svdag-verify check one.svdag | tail -1
+| ok: sound, in canonical order and minimal
+$ svdag pack painted.svdag -q -o a.pack && svdag unpack a.pack -q -o unpacked.svdag && cmp unpacked.svdag painted.svdag
+$ svdag-verify check a.pack | tail -1
+| ok: sound, in canonical order and minimal
+$ svdag pack painted.svdag -q -o part.pack --bounds=0,0,0,40,40,40 && svdag unpack part.pack -q -o again.svdag && cmp again.svdag part.svdag
+$ svdag pack plain.svdag -q -o plain.pack && for f in a plain; do head -c 12 $f.pack | tail -c 4 | xxd -p; done
+| 02000000
+| 01000000
 
 ## colours_dropped
 # Never silently.
 $ svdag-scene city -n 2K -q -o city.ply
 $ svdag build city.ply -q -o plain.svdag -r 128
 $ paint_dag plain.svdag painted.svdag 7 9
-$ svdag edit painted.svdag -q -o coarse.svdag --level 5
+$ svdag edit painted.svdag plain.svdag -q -o both.svdag --union
 ! svdag: painted.svdag: its colours are left out of the output
-$ svdag convert painted.svdag -q -o coarse2.svdag --level 5
-! svdag: painted.svdag: its colours are left out of the output
-$ cmp coarse.svdag coarse2.svdag
-$ svdag pack painted.svdag -q -o a.pack
-! svdag: painted.svdag: its colours are left out of the output
-$ svdag unpack a.pack -q -o unpacked.svdag && cmp unpacked.svdag plain.svdag && echo "the bytes from before"
-| the bytes from before
+$ cmp both.svdag plain.svdag
 
 ## colours_shown
 # Pictures are in the colours of the file.

@@ -138,6 +138,13 @@ bool same(const DiffCounts& counts, const std::vector<DiffLayer>& layers) {
          std::ranges::all_of(layers, [](const DiffLayer& l) { return l.counts.same(); });
 }
 
+// By their hashes; nothing if no file has colours. They do not decide the verdict.
+const char* compared_colours(const DagFile& a, const DagFile& b) {
+  if (!a.has_colours()) return b.has_colours() ? "only B" : nullptr;
+  if (!b.has_colours()) return "only A";
+  return std::ranges::equal(a.header().colour_hash, b.header().colour_hash) ? "same" : "different";
+}
+
 std::string member(const char* list, size_t i) {
   return std::string(list) + "/" + std::to_string(i) + "/";
 }
@@ -150,7 +157,7 @@ void add_counts(Verdict* verdict, const std::string& key, const DiffCounts& coun
 
 Verdict verdict_of(const DiffConfig& config, const DagDiff& diff, const DiffCounts& counts,
                    const std::vector<DiffLayer>& layers, const ListedClusters& clusters,
-                   const std::vector<DifferingVoxel>& voxels) {
+                   const std::vector<DifferingVoxel>& voxels, const char* colours) {
   Verdict verdict;
   verdict.for_programs("command", "diff");
   verdict.for_programs("a", config.a);
@@ -186,6 +193,7 @@ Verdict verdict_of(const DiffConfig& config, const DagDiff& diff, const DiffCoun
                           std::to_string(voxel.z) + ")"));
     verdict.for_programs(member("first", i) + "in", in_a ? "a" : "b");
   }
+  if (colours != nullptr) verdict.add("colours", "colours", colours);
   verdict.add("same", "", shown(same(counts, layers), same(counts, layers) ? "same" : "different"));
   return verdict;
 }
@@ -213,7 +221,8 @@ int run(const DiffConfig& config) {
   const ListedClusters clusters = list_clusters(&diff, a.grid());
   const auto voxels = first_differing(&diff, counts.same() ? 0 : config.show);
   progress.finish();
-  return finish(config.common, verdict_of(config, diff, counts, layers, clusters, voxels),
+  return finish(config.common,
+                verdict_of(config, diff, counts, layers, clusters, voxels, compared_colours(a, b)),
                 same(counts, layers));
 }
 

@@ -17,6 +17,7 @@ uint64_t export_dag(const ExportPart& part, const ExportConfig& config, MemoryBu
   Selection selection{.level = config.selection.level, .bounds = config.selection.bounds};
   if (selection.level == int(part.file.view().levels)) selection.level.reset();
   selection.without_layers = !part.file.layers().empty();
+  selection.without_colours = true;
   std::optional<DagFile> derived;
   if (!selection.is_everything() || part.file.layout() != Layout::kPlain)
     derived.emplace(derive(part.file, selection, room));

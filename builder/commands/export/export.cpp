@@ -120,7 +120,8 @@ int run(const ExportConfig& options) {
   reject_options_of_other_formats(row, options);
   MemoryBudget budget(memory_or_default(options.memory));
   const WorkRoom room{&budget, folder_of(options.output)};
-  const DagFile file = open_dag(options.file, {.layers = options.selection.layers}, &room);
+  const DagFile file =
+      open_dag(options.file, {.layers = options.selection.layers, .without_colours = true}, &room);
   if (options.colours && file.layers().empty())
     fail_usage("--colours: " + file.path() + " has no layers" +
                (options.selection.layers.empty()

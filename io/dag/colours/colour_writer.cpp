@@ -1,92 +1,17 @@
 #include "io/dag/colours/colour_writer.h"
 
 #include <algorithm>
-#include <cstring>
 #include <optional>
 
 #include "io/colour.h"
 #include "io/dag/colours/chunk_codec.h"
 #include "io/dag/colours/colour_directory.h"
 #include "io/dag/colours/dag_colours.h"
-#include "io/dag/dag_file_output.h"
 #include "streaming/error.h"
-#include "streaming/file/checksum.h"
 #include "streaming/process/interrupt.h"
 
 namespace svdag {
 namespace {
-
-// The end of the sections and the layer table.
-uint64_t geometry_end(const Header& h) {
-  if (h.layer_kind != 0) return h.layers_offset + h.layers_bytes;
-  const Section& last = h.sections[Layout(h.layout) == Layout::kPlain ? 0 : h.levels - 2];
-  return last.offset + last.bytes;
-}
-
-// A file with the sections and layers of another, to which colours may be appended.
-class DagCopy {
- public:
-  DagCopy(const DagFile& dag, const std::string& path) : output_(path), header_(dag.header()) {
-    const uint64_t end = geometry_end(header_);
-    output_.append(dag.bytes().subspan(sizeof(Header), end - sizeof(Header)));
-    clear_colours(&header_);
-    header_.table_hash[0] = header_.table_hash[1] = 0;
-  }
-
-  DagFileOutput* output() { return &output_; }
-  Header* header() { return &header_; }
-  void finish() {
-    header_.version =
-        version_of(Layout(header_.layout), LayerKind(header_.layer_kind), has_colours(header_));
-    output_.finish(&header_);
-  }
-
- private:
-  DagFileOutput output_;
-  Header header_;
-};
-
-// Appends the parts of the colours, and hashes them.
-class ColourParts {
- public:
-  ColourParts(DagCopy* copy, uint32_t level, uint32_t error, uint64_t count) : copy_(copy) {
-    Header& h = *copy->header();
-    h.colour_level = level;
-    h.colour_error = error;
-    h.colour_count = count;
-    hasher_.update(std::as_bytes(std::span(&h.colour_count, 1)));
-    hasher_.update(std::as_bytes(std::span(&h.colour_level, 1)));
-    hasher_.update(std::as_bytes(std::span(&h.colour_error, 1)));
-    copy->output()->align();
-    h.chunks_offset = copy->output()->position();
-  }
-  void add_chunks(std::span<const std::byte> bytes) {
-    append(bytes);
-    copy_->header()->chunks_bytes += bytes.size();
-  }
-  void begin_directory() {
-    copy_->output()->align();
-    copy_->header()->directory_offset = copy_->output()->position();
-  }
-  void add_entries(std::span<const std::byte> bytes) {
-    append(bytes);
-    copy_->header()->directory_bytes += bytes.size();
-  }
-  void finish() {
-    const Hash128 hash = hasher_.digest();
-    std::memcpy(copy_->header()->colour_hash, hash.data(), sizeof hash);
-    copy_->finish();
-  }
-
- private:
-  void append(std::span<const std::byte> bytes) {
-    copy_->output()->append(bytes);
-    hasher_.update(bytes);
-  }
-
-  DagCopy* copy_;
-  Hasher128 hasher_;
-};
 
 constexpr uint64_t kEncoderBytes = 4 << 20;  // of a worker
 constexpr size_t kChunksPerWorker = 16;      // that wait to be encoded
@@ -106,26 +31,30 @@ class ChunkQueue {
         chunks_(encoders_.size() * kChunksPerWorker),
         reserved_(budget->reserve(encoders_.size() * kBytesPerEncoder, "chunks of colours")) {}
 
-  // Takes the colours, and leaves other memory in their place.
-  void add(uint64_t first, std::vector<uint32_t>* colours) {
+  // Takes the colours, and leaves other memory in their place. `stored`: the words of this chunk,
+  // if there are some, instead of an encoding.
+  void add(uint64_t first, std::vector<uint32_t>* colours, std::span<const uint32_t> stored) {
     if (used_ == chunks_.size()) encode();
     Chunk& chunk = chunks_[used_++];
     chunk.entry = directory_->add({first, kChunkEntry});
     chunk.colours.swap(*colours);
+    chunk.stored = stored;
   }
   void encode() {
     check_interrupt();
     executor_->for_each(std::min(used_, encoders_.size()), [&](size_t, size_t encoder) {
       for (size_t i = encoder; i < used_; i += encoders_.size()) {
         chunks_[i].words.clear();
-        encoders_[encoder].encode(chunks_[i].colours, &chunks_[i].words);
+        if (chunks_[i].stored.empty())
+          encoders_[encoder].encode(chunks_[i].colours, &chunks_[i].words);
       }
     });
     for (size_t i = 0; i < used_; ++i) {
       const Chunk& chunk = chunks_[i];
+      const auto words = chunk.stored.empty() ? std::span(chunk.words) : chunk.stored;
       directory_->set_value(chunk.entry, kChunkEntry | words_);
-      parts_->add_chunks(std::as_bytes(std::span(chunk.words)));
-      words_ += chunk.words.size();
+      parts_->add_chunks(std::as_bytes(words));
+      words_ += words.size();
     }
     used_ = 0;
   }
@@ -140,6 +69,7 @@ class ChunkQueue {
   struct Chunk {
     uint64_t entry = 0;
     std::vector<uint32_t> colours, words;
+    std::span<const uint32_t> stored;
   };
 
   ColourParts* parts_;
@@ -151,33 +81,6 @@ class ChunkQueue {
   size_t used_ = 0;
   uint64_t words_ = 0;  // of all chunks so far
 };
-
-// A cube of the DAG with a set voxel: a node, a brick, an octant of one, or a voxel.
-struct CoveredCube {
-  uint32_t level = 0;
-  uint32_t index = 0;   // of a node or brick
-  uint64_t bits = 0;    // of a brick or octant
-  uint64_t morton = 0;  // among the cubes of its level
-};
-
-template <class Visit>
-void for_covered_children(const DagView& dag, const CoveredCube& cube, const Visit& visit) {
-  const auto child = [&](unsigned c, uint32_t index, uint64_t bits) {
-    visit(CoveredCube{cube.level + 1, index, bits, cube.morton << 3 | c});
-  };
-  if (cube.level < dag.brick_level()) {
-    const bool above_bricks = cube.level + 1 == dag.brick_level();
-    dag_for_children(dag, cube.level, cube.index, [&](unsigned c, uint32_t index) {
-      child(c, index, above_bricks ? dag.bricks[index] : 0);
-    });
-    return;
-  }
-  const bool is_brick = cube.level == dag.brick_level();
-  for (unsigned c = 0; c < 8; ++c) {
-    const uint64_t bits = is_brick ? cube.bits >> 8 * c & 0xff : cube.bits >> c & 1;
-    if (bits != 0) child(c, 0, bits);
-  }
-}
 
 // The colours of a cube, for the means above it.
 struct CubeSum {
@@ -209,12 +112,14 @@ struct CubeSum {
 class ColourWalk {
  public:
   ColourWalk(const DagFile& dag, const ColourCountTables& colours, const ColourCountTables& cubes,
-             const CubeColourSource& source, ColourDirectory* directory, ChunkQueue* queue)
+             const CubeColourSource& source, const StoredCubes* stored, ColourDirectory* directory,
+             ChunkQueue* queue)
       : dag_(dag.view()),
         colours_(colours),
         cubes_(cubes),
         level_(colours.counts().level),
         source_(source),
+        stored_(stored),
         directory_(directory),
         queue_(queue) {}
 
@@ -253,10 +158,14 @@ class ColourWalk {
                                          std::to_string(morton) + ")");
   }
 
-  uint64_t count(const ColourCountTables& tables, const CoveredCube& cube) const {
-    if (cube.level <= dag_.brick_level()) return tables.of(cube.level, cube.index);
-    if (cube.level == level_) return 1;
-    return uint64_t(popcount8(uint32_t(cube.bits)));  // an octant, K = L
+  // The mean of a cube with this many colours.
+  uint32_t mean(const CoveredCube& cube, uint64_t colours, const CubeSum& sum) const {
+    const auto number = stored_number(cube, colours);
+    return number ? stored_->colour(*number) : sum.mean();
+  }
+  std::optional<uint64_t> stored_number(const CoveredCube& cube, uint64_t colours) const {
+    if (stored_ == nullptr) return std::nullopt;
+    return stored_->unchanged(cube.level, cube.morton, colours);
   }
 
   // Whether the next colour is that of all covered cubes of `cube`; then takes it.
@@ -272,7 +181,7 @@ class ColourWalk {
     sum->is_empty = false;
     sum->is_uniform = colour->is_constant || !colour->has_colour;
     if (colour->has_colour) {
-      sum->count = cube.level == level_ ? 1 : count(cubes_, cube);
+      sum->count = cube.level == level_ ? 1 : cubes_.of(cube);
       sum->value = 0;
       for (int c = 0; c < 3; ++c) {
         sum->linear[c] = CubeSum::Wide(colour->linear[c]) * sum->count;
@@ -287,26 +196,29 @@ class ColourWalk {
   CubeSum collect(const CoveredCube& cube) {
     CubeSum sum;
     if (take(cube, &sum)) {
-      chunk_.resize(chunk_.size() + count(colours_, cube), sum.value);
+      chunk_.resize(chunk_.size() + colours_.of(cube), sum.value);
       return sum;
     }
     const bool has_mean = colours_.counts().own(cube.level) != 0;
     const size_t own = chunk_.size();
     if (has_mean) chunk_.push_back(0);
     for_covered_children(dag_, cube, [&](const CoveredCube& child) { sum.add(collect(child)); });
-    if (has_mean) chunk_[own] = sum.mean();
+    if (has_mean) chunk_[own] = mean(cube, chunk_.size() - own, sum);
     return sum;
   }
 
   // `number`: of the cube's first colour. Adds all entries of a cube that is not uniform.
   CubeSum walk(const CoveredCube& cube, uint64_t number) {
     CubeSum sum;
-    if (count(colours_, cube) <= kChunkColours) {
+    if (colours_.of(cube) <= kChunkColours) {
       chunk_.clear();
       sum = collect(cube);
       if (sum.is_uniform) return sum;
       open_all();
-      queue_->add(number, &chunk_);
+      std::span<const uint32_t> stored;
+      if (const auto at = stored_number(cube, chunk_.size()))
+        stored = stored_->chunk(*at, chunk_.size());
+      queue_->add(number, &chunk_, stored);
       return sum;
     }
     if (take(cube, &sum)) return sum;
@@ -318,11 +230,11 @@ class ColourWalk {
       const CubeSum part = walk(child, at);
       sum.add(part);
       if (part.is_uniform) add_uniform({at, part.value}, sum.is_uniform);
-      at += count(colours_, child);
+      at += colours_.of(child);
     });
     SVDAG_ASSERT(path_.size() == depth && path_.back().is_open == !sum.is_uniform);
     if (path_.back().is_open && has_mean)
-      directory_->set_value(path_.back().mean_entry, sum.mean());
+      directory_->set_value(path_.back().mean_entry, mean(cube, at - number, sum));
     path_.pop_back();
     return sum;
   }
@@ -352,6 +264,7 @@ class ColourWalk {
   const ColourCountTables& cubes_;
   const uint32_t level_;
   const CubeColourSource& source_;
+  const StoredCubes* stored_;
   ColourDirectory* directory_;
   ChunkQueue* queue_;
   std::span<const CubeColour> given_;
@@ -372,44 +285,53 @@ uint8_t srgb_code(uint16_t linear) {
   return kCodes[linear];
 }
 
-Header write_coloured(const DagFile& dag, const ColourSettings& settings,
-                      const CubeColourSource& source, const std::string& path, const WorkRoom& room,
-                      Executor* executor) {
+void add_colours(DagCopy* copy, const DagFile& dag, const ColourSettings& settings,
+                 const CubeColourSource& source, const WorkRoom& room, Executor* executor,
+                 const StoredCubes* stored) {
   SVDAG_ASSERT(settings.level >= 1 && settings.level <= dag.view().levels &&
                settings.error <= kMaxColourError);
   if (!dag.layers().empty() && !dag.layers().has_union)
     fail_usage(dag.path() + ": layers without their union have no colours");
   const ColourCountTables colours(dag.view(), settings.level, true, room.budget);
   const ColourCountTables cubes(dag.view(), settings.level, false, room.budget);
-  DagCopy copy(dag, path);
-  ColourParts parts(&copy, settings.level, settings.error, colours.total());
+  ColourParts parts(copy, settings.level, settings.error, colours.total());
   ColourDirectory directory(room.folder);
   {
-    ChunkQueue queue(settings.error, &parts, &directory, room.budget, executor);
-    ColourWalk(dag, colours, cubes, source, &directory, &queue).run();
+    ChunkQueue queue(stored == nullptr ? settings.error : 0, &parts, &directory, room.budget,
+                     executor);
+    ColourWalk(dag, colours, cubes, source, stored, &directory, &queue).run();
   }
   parts.begin_directory();
   directory.visit_all([&](std::span<const std::byte> bytes) { parts.add_entries(bytes); });
   parts.finish();
-  copy.output()->commit();
-  return *copy.header();
 }
 
-Header copy_colours(const DagFile& dag, const DagFile& coloured, const std::string& path) {
+void add_colours_of(DagCopy* copy, const DagFile& coloured) {
   const Header& from = coloured.header();
   SVDAG_ASSERT(has_colours(from) &&
-               std::equal(from.content_hash, from.content_hash + 2, dag.header().content_hash));
-  DagCopy copy(dag, path);
-  ColourParts parts(&copy, from.colour_level, from.colour_error, from.colour_count);
+               std::equal(from.content_hash, from.content_hash + 2, copy->header().content_hash));
+  ColourParts parts(copy, from.colour_level, from.colour_error, from.colour_count);
   parts.add_chunks(coloured.bytes().subspan(from.chunks_offset, from.chunks_bytes));
   parts.begin_directory();
   parts.add_entries(coloured.bytes().subspan(from.directory_offset, from.directory_bytes));
   parts.finish();
-  if (!std::equal(from.colour_hash, from.colour_hash + 2, copy.header()->colour_hash))
+  if (!std::equal(from.colour_hash, from.colour_hash + 2, copy->header().colour_hash))
     fail_input(coloured.path(), "damaged file: its colours do not match their hash",
                offsetof(Header, colour_hash));
-  copy.output()->commit();
-  return *copy.header();
+}
+
+Header write_coloured(const DagFile& dag, const ColourSettings& settings,
+                      const CubeColourSource& source, const std::string& path, const WorkRoom& room,
+                      Executor* executor) {
+  DagCopy copy(dag, path);
+  add_colours(&copy, dag, settings, source, room, executor);
+  return copy.commit();
+}
+
+Header copy_colours(const DagFile& dag, const DagFile& coloured, const std::string& path) {
+  DagCopy copy(dag, path);
+  add_colours_of(&copy, coloured);
+  return copy.commit();
 }
 
 namespace {
@@ -417,7 +339,7 @@ namespace {
 // Copies all except the colours.
 void strip(const DagFile& coloured, DagCopy* copy) {
   copy->finish();
-  if (!std::equal(copy->header()->content_hash, copy->header()->content_hash + 2,
+  if (!std::equal(copy->header().content_hash, copy->header().content_hash + 2,
                   coloured.header().content_hash))
     fail_input(coloured.path(), "damaged file: its nodes do not match its content hash",
                offsetof(Header, content_hash));
@@ -428,14 +350,13 @@ void strip(const DagFile& coloured, DagCopy* copy) {
 Header write_without_colours(const DagFile& coloured, const std::string& path) {
   DagCopy copy(coloured, path);
   strip(coloured, &copy);
-  copy.output()->commit();
-  return *copy.header();
+  return copy.commit();
 }
 
 DagFile without_colours(const DagFile& coloured, const std::string& folder) {
   DagCopy copy(coloured, folder + "/without_colours.svdag");
   strip(coloured, &copy);
-  return DagFile::map_valid(File::open_read(copy.output()->open_name()), coloured.path());
+  return copy.open(coloured.path());
 }
 
 }  // namespace svdag

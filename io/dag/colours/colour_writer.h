@@ -14,6 +14,8 @@
 #include <string>
 
 #include "io/dag/colours/cube_colour.h"
+#include "io/dag/colours/dag_copy.h"
+#include "io/dag/colours/stored_cubes.h"
 #include "io/dag/dag_file.h"
 #include "streaming/process/executor.h"
 #include "streaming/spill/work_array.h"
@@ -32,15 +34,23 @@ struct ColourSettings {
   uint32_t error = 9 * kColourErrorUnit;  // Header::colour_error; 0 is lossless
 };
 
-// Writes `dag` with these colours instead of its own to `path` and returns the header. Every
-// covered cube of level K must be in one entry of `source`, and no other cube: else Error
-// (kInternal). Error (kUsage) if `dag` has layers without a union. Memory: the counts of all nodes,
-// and per worker a few MiB. Same bytes for any number of workers.
+// Adds these colours to a copy of `dag`. Every covered cube of level K must be in one entry of
+// `source`, and no other cube: else Error (kInternal). Error (kUsage) if `dag` has layers without a
+// union. Memory: the counts of all nodes, and per worker a few MiB. Same bytes for any number of
+// workers.
+//
+// `stored`: the cubes of the file whose colours these are, decoded. Then chunks and means of its
+// unchanged cubes are copied, the other chunks are encoded without error.
+void add_colours(DagCopy* copy, const DagFile& dag, const ColourSettings& settings,
+                 const CubeColourSource& source, const WorkRoom& room, Executor* executor,
+                 const StoredCubes* stored = nullptr);
+// Writes `dag` with these colours instead of its own to `path` and returns the header.
 Header write_coloured(const DagFile& dag, const ColourSettings& settings,
                       const CubeColourSource& source, const std::string& path, const WorkRoom& room,
                       Executor* executor);
 
-// Writes `dag`, of the same voxels as `coloured` in any layout, with its colours, which are copied.
+// Copies the colours of a file with the same voxels in any layout.
+void add_colours_of(DagCopy* copy, const DagFile& coloured);
 Header copy_colours(const DagFile& dag, const DagFile& coloured, const std::string& path);
 
 // Writes a file without its colours: the bytes from before they were added. Error (kBadInput) if

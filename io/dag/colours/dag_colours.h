@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "io/dag/colours/colour_view.h"
+#include "io/dag/colours/covered_cube.h"
 #include "io/dag/dag_file.h"
 #include "streaming/memory/memory_budget.h"
 
@@ -20,6 +21,12 @@ class ColourCountTables {
   const ColourCounts& counts() const { return counts_; }
   // Of a node of any level, or brick.
   uint64_t of(uint32_t level, uint32_t index) const;
+  // Of a cube of level 0 .. K.
+  uint64_t of(const CoveredCube& cube) const {
+    if (cube.level <= dag_.brick_level()) return of(cube.level, cube.index);
+    if (cube.level == counts_.level) return 1;
+    return uint64_t(popcount8(uint32_t(cube.bits)));  // an octant, K = L
+  }
   // Of the whole grid.
   uint64_t total() const { return dag_.empty() ? 0 : of(0, 0); }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "io/dag/colours/colour_writer.h"
+#include "io/dag/colours/kept_colours.h"
 #include "io/dag/compact/compact_writer.h"
 #include "io/dag/graph/combined_graph.h"
 #include "io/dag/graph/dag_graph.h"
@@ -17,11 +18,10 @@ namespace {
 // Writes the selection with `writer`, and finishes it.
 template <class Finish>
 auto write_selected(const DagFile& file, const Selection& selection, const std::string& path,
-                    const WorkRoom& room, const Finish& finish) {
+                    const WorkRoom& room, Executor* executor, const Finish& finish) {
   GraphOfSets graph = graph_of(file, selection, room.budget);
   DagWriter writer(path, graph.nodes->grid(), file.rule());
-  SequentialExecutor executor;
-  const uint64_t voxels = reduce(graph.nodes, room, &executor, &writer, &graph.layers).voxels;
+  const uint64_t voxels = reduce(graph.nodes, room, executor, &writer, &graph.layers).voxels;
   const auto check = [&](const Header& header) {
     if (selection.is_everything() &&
         !std::equal(header.content_hash, header.content_hash + 2, file.header().content_hash))
@@ -29,6 +29,32 @@ auto write_selected(const DagFile& file, const Selection& selection, const std::
                  offsetof(Header, content_hash));
   };
   return finish(&writer, voxels, &graph, check);
+}
+
+// The nodes of the selection, plain and without colours.
+DagFile derive_nodes(const DagFile& file, const Selection& selection, const WorkRoom& room,
+                     Executor* executor) {
+  return write_selected(file, selection, room.folder + "/selection.svdag", room, executor,
+                        [&](DagWriter* writer, uint64_t voxels, GraphOfSets* graph, auto check) {
+                          DagFile result = writer->finish_unnamed(
+                              voxels, graph->largest_snap, std::move(graph->layers), file.path());
+                          check(result.header());
+                          return result;
+                        });
+}
+
+bool keeps_colours(const DagFile& file, const Selection& selection) {
+  return file.has_colours() && !selection.without_colours;
+}
+
+// Finishes a copy of the nodes of the selection with the colours that they have in `file`.
+void finish_coloured(DagCopy* copy, const DagFile& nodes, const DagFile& file,
+                     const Selection& selection, const WorkRoom& room, Executor* executor) {
+  if (selection.is_everything()) return add_colours_of(copy, file);
+  // Of a solid rule, the union may be empty beside a layer that is not; colours are the union's.
+  if (!nodes.layers().empty() && !nodes.layers().has_union) return copy->finish();
+  const bool is_part = selection.layers.empty() || !is_solid(file.rule());
+  keep_colours(copy, nodes, file, is_part, room, executor);
 }
 
 Header write_copy(const DagFile& file, const std::string& path) {
@@ -84,48 +110,47 @@ void crop(GraphOfSets* graph, const Box& bounds, MemoryBudget* budget) {
   graph->become(std::move(cropped));
 }
 
-DagFile derive(const DagFile& file, const Selection& selection, const WorkRoom& room) {
-  return write_selected(file, selection, room.folder + "/selection.svdag", room,
-                        [&](DagWriter* writer, uint64_t voxels, GraphOfSets* graph, auto check) {
-                          DagFile result = writer->finish_unnamed(
-                              voxels, graph->largest_snap, std::move(graph->layers), file.path());
-                          check(result.header());
-                          return result;
-                        });
+DagFile derive(const DagFile& file, const Selection& selection, const WorkRoom& room,
+               Executor* executor) {
+  SequentialExecutor one;
+  if (executor == nullptr) executor = &one;
+  DagFile nodes = derive_nodes(file, selection, room, executor);
+  if (!keeps_colours(file, selection)) return nodes;
+  DagCopy copy(nodes, room.folder + "/coloured.svdag");
+  finish_coloured(&copy, nodes, file, selection, room, executor);
+  return copy.open(file.path());
 }
 
-DagFile select(DagFile file, const Selection& selection, const WorkRoom& room) {
+DagFile select(DagFile file, const Selection& selection, const WorkRoom& room, Executor* executor) {
   if (selection.is_everything() && file.layout() == Layout::kPlain) return file;
-  return derive(file, selection, room);
-}
-
-bool keeps_colours(const DagFile& file, const Selection& selection) {
-  return file.has_colours() && selection.is_everything() && !selection.without_colours;
+  return derive(file, selection, room, executor);
 }
 
 Header write_selection(const DagFile& file, const Selection& selection, const std::string& path,
-                       const WorkRoom& room) {
-  if (file.has_colours() && selection.is_everything()) {
-    const bool keeps = keeps_colours(file, selection);
-    if (selection.layout != file.layout()) {
-      const DagFile dag = selection.layout == Layout::kPlain
-                              ? derive(file, selection, room)
-                              : compact_form(file, file.path(), room);
-      return keeps ? copy_colours(dag, file, path) : write_copy(dag, path);
-    }
-    return keeps ? write_copy(file, path) : write_without_colours(file, path);
-  }
-  const bool is_same = selection.is_everything() && file.layout() == Layout::kPlain;
-  if (selection.layout == Layout::kCompact)
-    return is_same ? write_compact(file, path, room)
-                   : write_compact(derive(file, selection, room), path, room);
-  if (is_same) return write_copy(file, path);
-  return write_selected(file, selection, path, room,
-                        [&](DagWriter* writer, uint64_t voxels, GraphOfSets* graph, auto check) {
-                          writer->finish(voxels, graph->largest_snap, std::move(graph->layers),
-                                         check);
-                          return writer->header();
-                        });
+                       const WorkRoom& room, Executor* executor) {
+  const bool is_all = selection.is_everything(), is_coloured = keeps_colours(file, selection);
+  if (is_all && selection.layout == file.layout())
+    return file.has_colours() && !is_coloured ? write_without_colours(file, path)
+                                              : write_copy(file, path);
+  const bool is_compact = selection.layout == Layout::kCompact;
+  if (!is_compact && !is_coloured)
+    return write_selected(file, selection, path, room, executor,
+                          [&](DagWriter* writer, uint64_t voxels, GraphOfSets* graph, auto check) {
+                            writer->finish(voxels, graph->largest_snap, std::move(graph->layers),
+                                           check);
+                            return writer->header();
+                          });
+  std::optional<DagFile> nodes;
+  if (!is_all || file.layout() != Layout::kPlain)
+    nodes.emplace(derive_nodes(file, selection, room, executor));
+  const DagFile& plain = nodes ? *nodes : file;
+  if (!is_coloured) return write_compact(plain, path, room);
+  std::optional<DagFile> compact;
+  if (is_compact) compact.emplace(compact_form(plain, file.path(), room));
+  const DagFile& dag = compact ? *compact : plain;
+  DagCopy copy(dag, path);
+  finish_coloured(&copy, dag, file, selection, room, executor);
+  return copy.commit();
 }
 
 }  // namespace svdag

@@ -13,6 +13,7 @@
 #include "io/dag/dag_file.h"
 #include "io/dag/graph/node_graph.h"
 #include "io/dag/graph/selection.h"
+#include "streaming/process/executor.h"
 #include "streaming/spill/work_array.h"
 
 namespace svdag {
@@ -41,18 +42,18 @@ GraphOfSets graph_of(const DagFile& file, const Selection& selection, MemoryBudg
 // Keeps the voxels whose interior meets the bounds. Error (kUsage): as above.
 void crop(GraphOfSets* graph, const Box& bounds, MemoryBudget* budget);
 
-// The selection as a file in room.folder, plain and without a name. Error (kBadInput) if `file` is
-// damaged.
-DagFile derive(const DagFile& file, const Selection& selection, const WorkRoom& room);
+// The selection as a file in room.folder, plain, without a name, and with the colours that its
+// cubes have in `file` (io/dag/colours/kept_colours.h). Error (kBadInput) if `file` is damaged.
+// Without executor, one thread.
+DagFile derive(const DagFile& file, const Selection& selection, const WorkRoom& room,
+               Executor* executor = nullptr);
 
 // The same, but `file` itself if it is plain and all of it is selected.
-DagFile select(DagFile file, const Selection& selection, const WorkRoom& room);
+DagFile select(DagFile file, const Selection& selection, const WorkRoom& room, Executor* executor);
 
-// Whether write_selection() keeps the colours of `file`: only of a whole file.
-bool keeps_colours(const DagFile& file, const Selection& selection);
-
-// Writes the selection to `path`, in its layout. Returns the header.
+// Writes the selection to `path`, in its layout and with its colours. Returns the header. A file
+// with layers whose union has become empty has no colours.
 Header write_selection(const DagFile& file, const Selection& selection, const std::string& path,
-                       const WorkRoom& room);
+                       const WorkRoom& room, Executor* executor);
 
 }  // namespace svdag

@@ -46,6 +46,8 @@ class Packer {
     const uint32_t bricks = dag_.brick_level();
     write_level(bricks, header_.sections[bricks].nodes);
     for (uint32_t level = bricks; level-- > 0;) write_level(level, header_.sections[level].nodes);
+    write_part(header_.chunks_offset, header_.chunks_bytes);
+    write_part(header_.directory_offset, header_.directory_bytes);
     finish();
     return file_.size();
   }
@@ -57,35 +59,51 @@ class Packer {
     std::vector<std::byte> bytes;
   };
 
+  // Makes chunks of `count` nodes; `skip(index, nodes)` returns the index after these nodes.
+  template <class Skip, class Encode>
+  void write_chunks(uint64_t count, const Skip& skip, const Encode& encode) {
+    uint64_t index = 0;
+    std::vector<Chunk> batch;
+    for (uint64_t done = 0; done < count;) {
+      check_interrupt();
+      batch.clear();
+      while (done < count && batch.size() < 4 * executor_->workers()) {
+        batch.push_back({index, uint32_t(std::min<uint64_t>(kChunkNodes, count - done)), {}});
+        done += batch.back().nodes;
+        index = skip(index, batch.back().nodes);
+      }
+      executor_->for_each(batch.size(),
+                          [&](size_t, size_t i) { batch[i].bytes = encode(batch[i]); });
+      for (const Chunk& chunk : batch) append(chunk);
+    }
+  }
+  // Bricks from `first` on, or what is packed like them.
+  void write_bricks(const Brick* first, uint64_t count) {
+    write_chunks(
+        count, [](uint64_t index, uint32_t bricks) { return index + bricks; },
+        [&](const Chunk& chunk) {
+          return chunk_of(streams_of_bricks({first + chunk.begin, chunk.nodes}), zstd_);
+        });
+  }
+  // A part of the colours. The zeros after it fill the last brick.
+  void write_part(uint64_t offset, uint64_t bytes) {
+    write_bricks(reinterpret_cast<const Brick*>(plain_.bytes().data() + offset),
+                 bricks_of_bytes(bytes));
+  }
+
   void write_level(uint32_t level, uint64_t nodes) {
+    if (level == dag_.brick_level()) return write_bricks(dag_.bricks, nodes);
     const bool inner = level + 1 < dag_.brick_level();
     RankBitmap below(budget_, "numbers of nodes");
     if (inner) below = node_starts(dag_, level + 1, budget_);
     const auto rank = [&](uint32_t index) { return inner ? below.rank(index) : index; };
-    uint64_t index = 0;
-    std::vector<Chunk> batch;
-    for (uint64_t done = 0; done < nodes;) {
-      check_interrupt();
-      batch.clear();
-      while (done < nodes && batch.size() < 4 * executor_->workers()) {
-        batch.push_back({index, uint32_t(std::min<uint64_t>(kChunkNodes, nodes - done)), {}});
-        done += batch.back().nodes;
-        if (level == dag_.brick_level()) {
-          index += batch.back().nodes;
-        } else {
-          for (uint32_t i = 0; i < batch.back().nodes; ++i) index = dag_next(dag_, level, index);
-        }
-      }
-      executor_->for_each(batch.size(), [&](size_t, size_t i) {
-        batch[i].bytes =
-            level == dag_.brick_level() ? brick_chunk(batch[i]) : node_chunk(level, batch[i], rank);
-      });
-      for (const Chunk& chunk : batch) append(chunk);
-    }
-  }
-
-  std::vector<std::byte> brick_chunk(const Chunk& chunk) const {
-    return chunk_of(streams_of_bricks({dag_.bricks + chunk.begin, chunk.nodes}), zstd_);
+    write_chunks(
+        nodes,
+        [&](uint64_t index, uint32_t skipped) {
+          while (skipped-- > 0) index = dag_next(dag_, level, index);
+          return index;
+        },
+        [&](const Chunk& chunk) { return node_chunk(level, chunk, rank); });
   }
 
   template <class Rank>
@@ -109,7 +127,7 @@ class Packer {
   void finish() {
     PackedHeader h{};
     std::memcpy(h.magic, kPackedMagic, sizeof kPackedMagic);
-    h.version = kPackedVersion;
+    h.version = packed_version(header_);
     h.chunks = index_.size();
     h.index_offset = file_.size();
     const auto index = std::as_bytes(std::span(index_));

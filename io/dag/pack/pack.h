@@ -14,7 +14,7 @@ namespace svdag {
 
 constexpr int kDefaultPackLevel = 5, kMaxPackLevel = 19;
 
-// Writes a file in the plain layout and without colours to `path`; `level`: of zstd, 1 to kMaxPackLevel. Returns the
+// Writes a file in the plain layout to `path`; `level`: of zstd, 1 to kMaxPackLevel. Returns the
 // size of the output in bytes. `budget`: for a bit per word of a level; Error (kMemory) if it has
 // too little.
 uint64_t pack(const DagFile& plain, const std::string& path, int level, MemoryBudget* budget,

@@ -5,6 +5,8 @@
 #include <functional>
 
 #include "io/dag/check.h"
+#include "io/dag/colours/colours_check.h"
+#include "io/dag/colours/dag_copy.h"
 #include "io/dag/dag_writer.h"
 #include "io/dag/pack/node_streams.h"
 #include "io/dag/pack/pack_format.h"
@@ -73,13 +75,30 @@ class Unpacker {
       }
       placed_ = std::move(placed);
     }
-    require(next_chunk_ == index_.size(), "wrong number of chunks", header_.index_offset);
-    inputs_.check();
+    if (!has_colours(h)) require_end();
+  }
+  // Adds the colours to a copy of what run() has written.
+  void add_colours(DagCopy* copy) {
+    const Header& h = header_.plain;
+    ColourParts parts(copy, h.colour_level, h.colour_error, h.colour_count);
+    read_part(h.chunks_bytes, [&](std::span<const std::byte> bytes) { parts.add_chunks(bytes); });
+    parts.begin_directory();
+    read_part(h.directory_bytes,
+              [&](std::span<const std::byte> bytes) { parts.add_entries(bytes); });
+    parts.finish();
+    require_end();
   }
   // Checks the finished file.
   void require_same(const Header& header) const {
     require(std::memcmp(&header, &header_.plain, sizeof header) == 0,
-            "the nodes do not match the content hash", offsetof(PackedHeader, plain));
+            has_colours(header) ? "the nodes or colours do not match their hashes"
+                                : "the nodes do not match the content hash",
+            offsetof(PackedHeader, plain));
+  }
+  // So that a reader may look the colours up.
+  void require_colours(const DagFile& file) const {
+    if (const auto defect = colours_defect(file.bytes().data()))
+      require(false, defect->sentence, offsetof(PackedHeader, plain));
   }
 
  private:
@@ -93,16 +112,16 @@ class Unpacker {
         std::memcmp(header_.magic, kPackedMagic, sizeof kPackedMagic) != 0)
       fail_input(file_.path(), "is not a packed file");
     require(size == sizeof header_, "it ends within its header", size);
-    if (header_.version != kPackedVersion)
+    if (header_.version < 1 || header_.version > kMaxPackedVersion)
       fail_input(file_.path(), "has pack version " + std::to_string(header_.version) +
-                                   ", this program reads version " +
-                                   std::to_string(kPackedVersion));
+                                   ", this program reads versions 1 to " +
+                                   std::to_string(kMaxPackedVersion));
     const auto bytes = std::as_bytes(std::span(&header_, 1));
     require(checksum64(bytes.first(offsetof(PackedHeader, checksum))) == header_.checksum,
             "the header does not match its checksum", offsetof(PackedHeader, checksum));
     check_header(file_, header_.plain);
     require(header_.padding == 0 && header_.plain.layout == uint32_t(Layout::kPlain) &&
-                !has_colours(header_.plain),
+                header_.version == packed_version(header_.plain),
             "unknown header field", offsetof(PackedHeader, padding));
   }
 
@@ -128,6 +147,8 @@ class Unpacker {
             header_.index_offset);
     uint64_t end = sizeof(PackedHeader) + header_.plain.layers_bytes, nodes = 0;
     for (const Section& section : header_.plain.sections) nodes += section.nodes;
+    nodes += bricks_of_bytes(header_.plain.chunks_bytes);
+    nodes += bricks_of_bytes(header_.plain.directory_bytes);
     for (size_t i = 0; i < index_.size(); ++i) {
       const uint64_t at = header_.index_offset + i * sizeof(ChunkEntry);
       require(index_[i].offset == end && index_[i].bytes <= header_.index_offset - end &&
@@ -153,6 +174,11 @@ class Unpacker {
     return std::span(index_).subspan(first, next_chunk_ - first);
   }
 
+  void require_end() {
+    require(next_chunk_ == index_.size(), "wrong number of chunks", header_.index_offset);
+    inputs_.check();
+  }
+
   void require_ascending(bool ascend, const ChunkEntry& entry) const {
     require(ascend, "nodes are empty or do not ascend", entry.offset);
   }
@@ -170,7 +196,22 @@ class Unpacker {
     require(read_streams(chunk->bytes, entry.nodes, &chunk->zstd, streams) &&
                 bricks_of_streams(streams, entry.nodes, &chunk->bricks),
             "a chunk does not hold nodes", entry.offset);
-    require_ascending(std::ranges::is_sorted(chunk->bricks, std::less_equal()), entry);
+  }
+
+  // Calls add(bytes) for the chunks of a part of the colours.
+  template <class Add>
+  void read_part(uint64_t bytes, const Add& add) {
+    UnpackedChunk chunk;
+    for (const ChunkEntry& entry : next_chunks(bricks_of_bytes(bytes))) {
+      check_interrupt();
+      read_bricks(entry, &chunk);
+      const auto part = std::as_bytes(std::span(chunk.bricks));
+      const size_t used = size_t(std::min<uint64_t>(bytes, part.size()));
+      require(std::ranges::all_of(part.subspan(used), [](std::byte b) { return b == std::byte(); }),
+              "padding of the colours is not zero", entry.offset);
+      add(part.first(used));
+      bytes -= used;
+    }
   }
 
   void read_nodes(uint32_t level, const ChunkEntry& entry, UnpackedChunk* chunk) const {
@@ -188,6 +229,7 @@ class Unpacker {
     chunk->piece.clear();
     if (level + 2 == header_.plain.levels) {
       read_bricks(entry, chunk);
+      require_ascending(std::ranges::is_sorted(chunk->bricks, std::less_equal()), entry);
       writer.encode(std::span<const Brick>(chunk->bricks), &chunk->piece);
     } else {
       read_nodes(level, entry, chunk);
@@ -272,20 +314,47 @@ bool is_packed(const std::string& path) {
   }
 }
 
+namespace {
+
+// The file without its colours, and without a name.
+DagFile unpack_nodes(Unpacker* unpacker, const std::string& path, const WorkRoom& room) {
+  const Header& h = unpacker->plain();
+  DagWriter writer(room.folder + "/plain.svdag", grid_of(h), Rule(h.rule));
+  unpacker->run(&writer);
+  return writer.finish_unnamed(h.voxels, h.largest_snap, unpacker->layers(), path);
+}
+
+// Finishes the copy of the nodes.
+DagFile with_colours(Unpacker* unpacker, DagCopy* copy, const std::string& path) {
+  unpacker->add_colours(copy);
+  unpacker->require_same(copy->header());
+  DagFile file = copy->open(path);
+  unpacker->require_colours(file);
+  return file;
+}
+
+}  // namespace
+
 DagFile unpack(const std::string& path, const WorkRoom& room, Executor* executor) {
   Unpacker unpacker(path, room, executor);
-  const Header& h = unpacker.plain();
-  DagWriter writer(room.folder + "/plain.svdag", grid_of(h), Rule(h.rule));
-  unpacker.run(&writer);
-  DagFile plain = writer.finish_unnamed(h.voxels, h.largest_snap, unpacker.layers(), path);
-  unpacker.require_same(plain.header());
-  return plain;
+  DagFile nodes = unpack_nodes(&unpacker, path, room);
+  if (has_colours(unpacker.plain())) {
+    DagCopy copy(nodes, room.folder + "/coloured.svdag");
+    return with_colours(&unpacker, &copy, path);
+  }
+  unpacker.require_same(nodes.header());
+  return nodes;
 }
 
 Header unpack_to(const std::string& path, const std::string& output, const WorkRoom& room,
                  Executor* executor) {
   Unpacker unpacker(path, room, executor);
   const Header& h = unpacker.plain();
+  if (has_colours(h)) {
+    DagCopy copy(unpack_nodes(&unpacker, path, room), output);
+    with_colours(&unpacker, &copy, path);
+    return copy.commit();
+  }
   DagWriter writer(output, grid_of(h), Rule(h.rule));
   unpacker.run(&writer);
   writer.finish(h.voxels, h.largest_snap, unpacker.layers(),

@@ -14,6 +14,7 @@
 #include "io/dag/pack/pack_format.h"
 #include "io/dag/pack/unpack.h"
 #include "tests/expect_error.h"
+#include "tests/io/dag/colours/painted_cubes.h"
 #include "tests/repair_packed.h"
 #include "tests/temp_folder.h"
 
@@ -87,12 +88,26 @@ class Pack : public ::testing::Test {
     writer.finish(42, 0.25);
     return DagFile::open(path);
   }
+  // The same with colours, some of them in chunks.
+  DagFile painted(const DagFile& plain) {
+    const uint32_t level = plain.view().levels;
+    PaintedCubes cubes(plain.view(), level, mixed_paint(2));
+    const std::string path = folder_.file("painted.svdag");
+    write_coloured(plain, {level, 9 * kColourErrorUnit}, cubes.source(), path, room_, &executor_);
+    return DagFile::open(path);
+  }
   std::string packed(const DagFile& plain, int level = 1, Executor* executor = nullptr) {
     SequentialExecutor one;
     pack(plain, folder_.file("a.pack"), level, &budget_, executor != nullptr ? executor : &one);
     return folder_.read("a.pack");
   }
   DagFile unpacked() { return unpack(folder_.file("a.pack"), room_, &executor_); }
+
+  static uint32_t version(const std::string& packed) {
+    PackedHeader header;
+    std::memcpy(&header, packed.data(), sizeof header);
+    return header.version;
+  }
 
   const TempFolder folder_;
   MemoryBudget budget_;
@@ -145,11 +160,10 @@ TEST(NodeStreams, OfAnyBytesGiveNodesInRangeAndKnowTheirOrderOrNone) {
 }
 
 TEST_F(Pack, UnpacksToTheSameBytes) {
-  for (const auto& [levels, width] :
-       std::vector<std::pair<int, size_t>>{{3, 0}, {3, 1}, {4, 20}, {7, 300}, {6, 40'000}}) {
-    const DagFile file = plain(levels, width);
+  const auto expect_same = [&](const DagFile& file) {
     const std::string bytes = packed(file);
-    EXPECT_TRUE(std::ranges::equal(unpacked().bytes(), file.bytes())) << levels;
+    EXPECT_EQ(version(bytes), file.has_colours() ? 2U : 1U);
+    EXPECT_TRUE(std::ranges::equal(unpacked().bytes(), file.bytes()));
     EXPECT_EQ(packed(file, 1, &executor_), bytes) << "threads change the bytes";
     const Header header =
         unpack_to(folder_.file("a.pack"), folder_.file("b.svdag"), room_, &executor_);
@@ -158,6 +172,12 @@ TEST_F(Pack, UnpacksToTheSameBytes) {
     EXPECT_TRUE(is_packed(folder_.file("a.pack")));
     EXPECT_FALSE(is_packed(folder_.file("b.svdag")));
     EXPECT_TRUE(std::ranges::equal(open_dag(folder_.file("a.pack")).bytes(), file.bytes()));
+  };
+  for (const auto& [levels, width] :
+       std::vector<std::pair<int, size_t>>{{3, 0}, {3, 1}, {4, 20}, {7, 300}, {6, 40'000}}) {
+    const DagFile file = plain(levels, width);
+    expect_same(file);
+    expect_same(painted(file));
   }
 }
 
@@ -171,7 +191,7 @@ TEST_F(Pack, NeedsNoMoreThanItsMemory) {
 }
 
 TEST_F(Pack, EveryFlippedBitIsFoundAndLeavesNoFile) {
-  const std::string good = packed(plain(4, 20));
+  const std::string good = packed(painted(plain(4, 20)));
   for (size_t i = sizeof kPackedMagic; i < good.size(); ++i) {
     std::string bad = good;
     bad[i] = char(bad[i] ^ (1 << i % 8));
@@ -223,7 +243,7 @@ TEST_F(Pack, AChunkLargerThanItsStreamsIsRefusedBeforeItIsRead) {
 
 // A frame may hold the same streams in other bits.
 TEST_F(Pack, WithRepairedChecksumsAFlippedBitIsFoundOrChangesNothing) {
-  const DagFile file = plain(4, 20);
+  const DagFile file = painted(plain(4, 20));
   const std::string good = packed(file);
   size_t found = 0;
   for (size_t i = sizeof kPackedMagic; i < good.size(); ++i) {
