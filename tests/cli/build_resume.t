@@ -66,10 +66,10 @@ $ for options in "" "--scratch elsewhere"; do
 # --resume without an unfinished bake: reports that the bake began anew, with the folder that was checked.
 $ svdag-scene speck -n 2K -q -o a.ply
 $ svdag build a.ply -r 64 -o a.svdag --resume | tail -1
-|   nothing to resume in a.svdag.scratch: it was baked anew
+|   nothing to resume in a.svdag.scratch: it was made anew
 $ mkdir elsewhere
 $ svdag build a.ply -r 64 -o a.svdag --resume --scratch elsewhere | tail -1 | sed 's/-[0-9a-f]*\.scratch/-HASH.scratch/'
-|   nothing to resume in elsewhere/a.svdag-HASH.scratch: it was baked anew
+|   nothing to resume in elsewhere/a.svdag-HASH.scratch: it was made anew
 $ svdag build a.ply -r 64 -o a.svdag | grep resume || echo silent
 | silent
 
