@@ -21,7 +21,7 @@ svdag build city.ply -o thin.svdag -r 64 --rule thin
 svdag build scan.ply -o solid.svdag -r 64 --rule solid
 svdag build city.ply -o half.run -r 64 --part 1/2
 svdag export thin.svdag -o thin.vdb
-svdag build city.ply scan.ply -o layers.svdag -r 64 --layers file --report layers.json
+svdag build city.ply scan.ply -o layers.svdag -r 64 --layers file --colours --report layers.json
 svdag build city.ply scan.ply -o layers.run -r 64 --layers file --part 1/2
 svdag batch list.json --keep-going --report list.report.json
 svdag batch list.json --keep-going --report list.report.json"""
