@@ -39,6 +39,10 @@ $ svdag-verify mesh a.svdag cut.glb | tail -1
 | not ok: file and scene differ
 $ svdag info cut.glb | tail -1
 |   80 triangles are cut out by the alpha of their material
+$ svdag info cut.glb --parts | grep material:
+|               40  material:noisy  (-10.0705233, -9.90596867, -10.0844316) .. (9.97916126, 9.89784241, 9.98605442), 40.6 % opaque
+|               40  material:smooth  (-9.48893356, -7.79260635, -10.4189434) .. (9.59815598, 9.61961079, 9.86519432), 78.1 % opaque
+|               10  material:whole  (-9.04554939, -9.98473454, -9.05269146) .. (5.01157236, 3.54701281, 0.35863772)
 $ svdag info cut.glb --json | grep -E '"(cut|triangles)"'
 |   "triangles": 90,
 |   "cut": 80,

@@ -12,6 +12,7 @@
 #include "io/json.h"
 #include "io/lattice.h"
 #include "io/scene/boundary_chain.h"
+#include "io/scene/cutouts/cut_records.h"
 #include "io/scene/mesh_stats.h"
 #include "io/units.h"
 #include "streaming/printable.h"
@@ -26,7 +27,30 @@ struct MeshPart {
   std::string name;
   uint64_t triangles = 0;
   Box bounds;
+  double area = 0, opaque = 0;  // of the triangles; of their opaque points
+
+  double opaque_share() const { return area > 0 ? opaque / area : 1; }
 };
+
+// The share of a triangle that its material does not cut out, by the middles of 16 equal parts.
+double opaque_share(const CutOut& cut, const TextureCorners& corners) noexcept {
+  constexpr int kDivisions = 4;
+  int opaque = 0;
+  // In the parallelogram (i, j) of b and c, one part is below its diagonal and one above.
+  for (int i = 0; i < kDivisions; ++i) {
+    for (int j = 0; j + i < kDivisions; ++j) {
+      for (const double middle : {1.0 / 3, 2.0 / 3}) {
+        const double b = (i + middle) / kDivisions, c = (j + middle) / kDivisions;
+        if (b + c >= 1) continue;
+        const auto at = [&](double TexturePoint::* axis) {
+          return corners[0].*axis * (1 - b - c) + corners[1].*axis * b + corners[2].*axis * c;
+        };
+        opaque += alpha_at(cut, {at(&TexturePoint::u), at(&TexturePoint::v)}) >= cut.threshold;
+      }
+    }
+  }
+  return double(opaque) / (kDivisions * kDivisions);
+}
 
 // Counts the memory of the list of parts, in steps.
 class PartsMemory {
@@ -50,17 +74,31 @@ class PartsMemory {
 std::vector<MeshPart> list_parts(const Scene& scene, PartsMemory* memory) {
   std::vector<MeshPart> parts;
   std::map<std::pair<PartKind, std::string>, size_t> index_of;
+  CutOuts cut_outs;
   scene.stream([&](const TriangleBatch& batch) {
     Box bounds;
-    for (const Triangle& t : batch.triangles) bounds.add(t);
+    double area = 0, opaque = 0;
+    const CutOut* const cut =
+        batch.cut == nullptr ? nullptr : &cut_outs[material_number(*batch.cut, &cut_outs)];
+    for (size_t i = 0; i < batch.triangles.size(); ++i) {
+      const auto& [a, b, c] = batch.triangles[i].v;
+      const double of_triangle = glm::length(glm::cross(b - a, c - a)) / 2;
+      bounds.add(batch.triangles[i]);
+      area += of_triangle;
+      opaque +=
+          cut == nullptr ? of_triangle : of_triangle * opaque_share(*cut, batch.texture[i]);
+    }
     const auto add = [&](PartKind kind, std::string_view name) {
       const auto [at, added] = index_of.emplace(std::pair(kind, name), parts.size());
       if (added) {
         memory->add(at->first.second);
         parts.push_back({kind, std::string(name), 0, {}});
       }
-      parts[at->second].triangles += batch.triangles.size();
-      parts[at->second].bounds.add(bounds);
+      MeshPart& part = parts[at->second];
+      part.triangles += batch.triangles.size();
+      part.bounds.add(bounds);
+      part.area += area;
+      part.opaque += opaque;
     };
     add(PartKind::kObject, batch.mesh);
     if (!batch.material.empty()) add(PartKind::kMaterial, batch.material);
@@ -140,7 +178,8 @@ void print_json(const InfoCommand& config, const Box& box, const SceneCounts& co
     json["parts"].push_back({{"kind", name_of(part.kind)},
                              {"name", part.name},
                              {"triangles", part.triangles},
-                             {"bounds", bounds_json(part.bounds)}});
+                             {"bounds", bounds_json(part.bounds)},
+                             {"opaque", part.opaque_share()}});
   std::printf("%s\n", json_text(json, 2).c_str());
 }
 
@@ -183,11 +222,13 @@ void print_text(const InfoCommand& config, const Box& box, const SceneCounts& co
                 format_count(nodes).c_str(), format_count(weights).c_str());
   }
   if (config.parts) std::printf("\n  %14s  part\n", "triangles");
-  for (const auto& [kind, name, triangles, bounds] : parts)
-    std::printf("  %14s  %s%s  %s .. %s\n", format_count(triangles).c_str(),
-                (std::string(name_of(kind)) + ":").c_str(),
-                name.empty() ? "(unnamed)" : printable(name).c_str(),
-                format_point(bounds.min).c_str(), format_point(bounds.max).c_str());
+  for (const MeshPart& part : parts) {
+    std::printf("  %14s  %s:%s  %s .. %s", format_count(part.triangles).c_str(), name_of(part.kind),
+                part.name.empty() ? "(unnamed)" : printable(part.name).c_str(),
+                format_point(part.bounds.min).c_str(), format_point(part.bounds.max).c_str());
+    if (part.opaque < part.area) std::printf(", %.1f %% opaque", 100 * part.opaque_share());
+    std::printf("\n");
+  }
 }
 
 }  // namespace

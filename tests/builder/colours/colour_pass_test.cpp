@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <random>
 
@@ -35,10 +36,13 @@ class ColourPass : public testing::Test {
     return config;
   }
 
-  DagFile bake_scene(const std::string& path, int levels, Rule rule = Rule::kConservative) {
+  DagFile bake_scene(const std::string& path, int levels, Rule rule = Rule::kConservative,
+                     LayerKind layers = LayerKind::kNone) {
     BuildConfig config =
         config_for(path, folder_.path() + "/" + std::to_string(++files_) + ".svdag", levels);
     config.rule = rule;
+    config.layers = layers;
+    config.open_as_sheets = true;
     bake(config);
     return DagFile::open(config.output);
   }
@@ -182,16 +186,45 @@ class ColourPass : public testing::Test {
   std::vector<uint64_t> ends_;  // that pass() could be continued from
 };
 
+std::vector<TestTriangle> box(const Point& low, const Point& high) {
+  std::vector<TestTriangle> triangles;
+  for (int a = 0; a < 3; ++a) {
+    for (int side = 0; side < 2; ++side) {
+      Point p[4];
+      for (int k = 0; k < 4; ++k) {
+        p[k][a] = side == 0 ? low[a] : high[a];
+        const int u = k == 1 || k == 2, v = k >= 2;
+        p[k][(a + 1) % 3] = u == 0 ? low[(a + 1) % 3] : high[(a + 1) % 3];
+        p[k][(a + 2) % 3] = v == 0 ? low[(a + 2) % 3] : high[(a + 2) % 3];
+      }
+      for (int half = 0; half < 2; ++half) {
+        TestTriangle t;
+        t.triangle = {{p[0], p[1 + half], p[2 + half]}};
+        if (side == 0) std::swap(t.triangle.v[1], t.triangle.v[2]);
+        t.texture = {{{0, 0}, {1, 0}, {1, 1}}};
+        triangles.push_back(t);
+      }
+    }
+  }
+  return triangles;
+}
+
+struct SceneOptions {
+  bool is_masked = false;  // textures are cut out
+  bool has_box = false;    // a closed one in the middle
+};
+
 // Textured charts that meet at seams, duplicates, slivers, segments, colours of corners, and
 // triangles of one colour; `order` shuffles the triangles and their corners.
-// `is_masked`: with textures that are cut out.
-std::string random_scene(uint64_t seed, size_t count, uint64_t order = 0, bool is_masked = false) {
+std::string random_scene(uint64_t seed, size_t count, SceneOptions options = {},
+                         uint64_t order = 0) {
   std::mt19937_64 random(seed), shuffling(order);
   const auto unit = [&] { return float(random() >> 40) * 0x1p-24F; };
   PaintedGlb glb;
   std::string rgba;
   const uint32_t width = 1 + uint32_t(random() % 20), height = 1 + uint32_t(random() % 20);
-  for (uint32_t i = 0; i < 4 * width * height; ++i) rgba += char(i % 4 == 3 ? 255 : random() & 255);
+  for (uint32_t i = 0; i < 4 * width * height; ++i)
+    rgba += char(i % 4 == 3 && !options.is_masked ? 255 : random() & 255);
   const int wraps[] = {33071, 33648, 10497};
   const int texture = glb.texture(width, height, rgba,
                                   {{"wrapS", wraps[random() % 3]},
@@ -231,60 +264,40 @@ std::string random_scene(uint64_t seed, size_t count, uint64_t order = 0, bool i
     }
     const bool has_texture = kind == 0 || kind == 1, has_colours = kind >= 1 && kind < 4;
     nlohmann::json material = glb.material({0.25 * kind, 0.8, 0.3}, has_texture ? texture : -1);
-    if (is_masked && has_texture) material["alphaMode"] = "MASK";
+    if (options.is_masked && has_texture) material["alphaMode"] = "MASK";
     glb.add(material, triangles, has_colours);
   }
+  if (options.has_box)
+    glb.add(glb.material({1, 0.5, 0}, texture), box(Point(0.25), Point(0.75)), false);
   return glb.bytes();
 }
 
-std::vector<TestTriangle> box(const Point& low, const Point& high) {
-  std::vector<TestTriangle> triangles;
-  for (int a = 0; a < 3; ++a) {
-    for (int side = 0; side < 2; ++side) {
-      Point p[4];
-      for (int k = 0; k < 4; ++k) {
-        p[k][a] = side == 0 ? low[a] : high[a];
-        const int u = k == 1 || k == 2, v = k >= 2;
-        p[k][(a + 1) % 3] = u == 0 ? low[(a + 1) % 3] : high[(a + 1) % 3];
-        p[k][(a + 2) % 3] = v == 0 ? low[(a + 2) % 3] : high[(a + 2) % 3];
-      }
-      for (int half = 0; half < 2; ++half) {
-        TestTriangle t;
-        t.triangle = {{p[0], p[1 + half], p[2 + half]}};
-        if (side == 0) std::swap(t.triangle.v[1], t.triangle.v[2]);
-        t.texture = {{{0, 0}, {1, 0}, {1, 1}}};
-        triangles.push_back(t);
-      }
-    }
-  }
-  return triangles;
-}
-
-TEST_F(ColourPass, IsTheReferenceWhateverTheThreadsMemoryAndOrder) {
-  for (uint64_t seed = 1; seed <= 12; ++seed) {
+// SVDAG_LONG=1: 2,000 scenes.
+TEST_F(ColourPass, IsTheReferenceWhateverTheThreadsMemoryOrderAndBeginning) {
+  const uint64_t scenes = std::getenv("SVDAG_LONG") != nullptr ? 2000 : 20;
+  constexpr Rule kRules[] = {Rule::kConservative, Rule::kThin, Rule::kSolid};
+  constexpr LayerKind kLayers[] = {LayerKind::kNone, LayerKind::kMaterial, LayerKind::kObject};
+  for (uint64_t seed = 1; seed <= scenes; ++seed) {
     SCOPED_TRACE(seed);
-    const int levels = seed % 2 == 0 ? 4 : 5;
-    const std::string path = write("scene.glb", random_scene(seed, 12));
-    const DagFile file =
-        bake_scene(path, levels, seed % 5 == 0 ? Rule::kThin : Rule::kConservative);
-    for (int level = 3; level <= levels; ++level) {
-      const Colours expected = reference(file, path, level);
-      EXPECT_EQ(pass(file, path, level), expected) << level;
-      EXPECT_EQ(pass(file, path, level, 3), expected) << level;
-    }
-    const std::string shuffled = write("shuffled.glb", random_scene(seed, 12, seed));
-    EXPECT_EQ(pass(file, shuffled, levels), reference(file, path, levels));
-  }
-}
-
-TEST_F(ColourPass, IsTheReferenceWithCutOuts) {
-  for (uint64_t seed = 21; seed <= 28; ++seed) {
-    SCOPED_TRACE(seed);
-    const std::string path = write("scene.glb", random_scene(seed, 12, 0, true));
-    const DagFile file = bake_scene(path, 5);
-    for (const int level : {3, 5}) EXPECT_EQ(pass(file, path, level), reference(file, path, level));
-    const std::string shuffled = write("shuffled.glb", random_scene(seed, 12, seed, true));
-    EXPECT_EQ(pass(file, shuffled, 5, 2), reference(file, path, 5));
+    std::mt19937_64 random(seed);
+    const int levels = 4 + int(random() % 2), level = 3 + int(random() % size_t(levels - 2));
+    const Rule rule = kRules[random() % 3];
+    const LayerKind layers = kLayers[random() % 3];
+    const SceneOptions options = {.is_masked = rule != Rule::kSolid && random() % 3 == 0,
+                                  .has_box = rule == Rule::kSolid || random() % 4 == 0};
+    const std::string path = write("scene.glb", random_scene(seed, 12, options));
+    const std::string shuffled = write("shuffled.glb", random_scene(seed, 12, options, seed));
+    const DagFile file = bake_scene(path, levels, rule, layers);
+    const Colours expected = reference(file, path, level);
+    EXPECT_EQ(pass(file, path, level), expected);
+    EXPECT_EQ(pass(file, path, level, 3, 6 * kMiB), expected);
+    EXPECT_EQ(pass(file, shuffled, level, 2), expected);
+    if (ends_.empty()) continue;
+    const uint64_t begin = ends_[random() % ends_.size()];
+    Colours rest = expected;
+    const int below = 3 * (levels - level);
+    std::erase_if(rest, [&](const auto& colour) { return colour.first << below < begin; });
+    EXPECT_EQ(pass(file, path, level, 1, 256 * kMiB, begin), rest);
   }
 }
 
