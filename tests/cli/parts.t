@@ -63,14 +63,14 @@ $ svdag info house.obj --parts | tail -n 4
 |                1  object:roof  (0, 0, 0) .. (1, 1, 1)
 |                3  file:house.obj  (0, 0, 0) .. (1, 1, 1)
 $ svdag info house.obj --json --parts | tail -n 11
-|       "bounds": [
 |         0.0,
 |         0.0,
 |         0.0,
 |         1.0,
 |         1.0,
 |         1.0
-|       ]
+|       ],
+|       "opaque": 1.0
 |     }
 |   ]
 | }
