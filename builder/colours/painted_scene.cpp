@@ -7,11 +7,6 @@
 namespace svdag {
 namespace {
 
-bool is_invisible(const CutOut& cut) {
-  return cut.image->width() == 1 && cut.image->height() == 1 &&
-         double(cut.image->at(0, 0)) < cut.threshold;
-}
-
 std::array<uint16_t, 3> colour_of(const TriangleBatch& batch) {
   if (!batch.colour) return {kWhite16, kWhite16, kWhite16};
   return {light16_of_code(batch.colour->r), light16_of_code(batch.colour->g),
@@ -42,7 +37,7 @@ SceneReader::SceneReader(const Grid& grid, uint64_t max_triangles, uint64_t tria
 }
 
 void SceneReader::read(const TriangleBatch& batch) {
-  if (batch.cut != nullptr && is_invisible(*batch.cut)) return;
+  if (batch.cut != nullptr && batch.cut->is_transparent()) return;
   const std::array<uint16_t, 3> plain = colour_of(batch);
   const uint32_t paint = batch.paint != nullptr ? number_of(*batch.paint) : kOneColour;
   for (size_t k = 0; k < batch.triangles.size(); ++k) {

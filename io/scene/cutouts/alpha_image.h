@@ -19,13 +19,15 @@ class AlphaImage {
         width_(width),
         height_(height),
         texels_(std::move(texels)),
-        least_(*std::ranges::min_element(texels_)) {}
+        least_(*std::ranges::min_element(texels_)),
+        greatest_(*std::ranges::max_element(texels_)) {}
 
   int64_t width() const { return width_; }
   int64_t height() const { return height_; }
   const std::vector<uint8_t>& texels() const { return texels_; }
   uint8_t at(int64_t i, int64_t j) const { return texels_[size_t(j * width_ + i)]; }
   uint8_t least() const { return least_; }
+  uint8_t greatest() const { return greatest_; }
   // Bytes of an image and of its OpacityMap, which has columns, rows and levels more.
   static uint64_t bytes(int64_t width, int64_t height) {
     const auto cells = uint64_t(width + 8) * uint64_t(height + 2);
@@ -36,7 +38,7 @@ class AlphaImage {
   MemoryBudget::Reservation memory_;
   int64_t width_, height_;
   std::vector<uint8_t> texels_;
-  uint8_t least_;
+  uint8_t least_, greatest_;
 };
 
 }  // namespace svdag

@@ -67,6 +67,8 @@ struct CutOut {
   }
   // Whether no texel is transparent, so that nothing is cut.
   bool is_opaque() const { return image->least() >= threshold; }
+  // Whether every texel is.
+  bool is_transparent() const { return image->greatest() < threshold; }
 };
 
 // The same with its map.

@@ -115,6 +115,7 @@ class ColourPass : public testing::Test {
     std::vector<std::unique_ptr<Paints>> paints;
     std::vector<std::pair<PaintedTriangle, const Paints*>> triangles;
     scene.stream([&](const TriangleBatch& batch) {
+      if (batch.cut != nullptr && batch.cut->is_transparent()) return;
       paints.push_back(std::make_unique<Paints>());
       if (batch.paint != nullptr) paints.back()->push_back(*batch.paint);
       for (size_t k = 0; k < batch.triangles.size(); ++k) {
