@@ -309,9 +309,9 @@ class GltfReader {
         const Triangle t{{to_world(points[a]), to_world(points[b]), to_world(points[c])}};
         const TextureCorners corners =
             texture.empty() ? TextureCorners() : TextureCorners{texture[a], texture[b], texture[c]};
-        if (paint == nullptr) return out_.add_cut(t, corners);
+        if (paint == nullptr) return out_.add_textured(t, corners);
         if (!std::ranges::all_of(corners, is_placeable)) left_out_.add(Omission::kTexturePoints);
-        out_.add_painted(
+        out_.add_textured(
             t, corners,
             colours.empty() ? kWhiteCorners : CornerColours{colours[a], colours[b], colours[c]});
       };

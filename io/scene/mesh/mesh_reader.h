@@ -170,18 +170,15 @@ class BatchWriter {
   void material(std::string_view name, std::optional<Colour> colour = {});
   void quantisation(double step);
   void mirrored(bool mirrored);
-  // Of the triangles from here on, which add_cut() adds; null: none of them is cut.
+  // Of the triangles from here on: what cuts them out, and what colours them; null: nothing does.
+  // If either is set, the functions below add them.
   void cut_out(const CutOut* cut);
-  void add_cut(const Triangle& t, const TextureCorners& texture) {
-    texture_.push_back(texture);
-    add(t.v[0], t.v[1], t.v[2]);
-  }
-  // What colours the triangles from here on, which add_painted() adds; null: nothing does. They may
-  // be cut, too.
   void paint(const Paint* paint);
-  void add_painted(const Triangle& t, const TextureCorners& texture, const CornerColours& colours) {
-    corner_colours_.push_back(colours);
-    add_cut(t, texture);
+  void add_textured(const Triangle& t, const TextureCorners& texture,
+                    const CornerColours& colours = kWhiteCorners) {
+    texture_.push_back(texture);
+    if (paint_ != nullptr) corner_colours_.push_back(colours);
+    add(t.v[0], t.v[1], t.v[2]);
   }
   // Writes each corner to its place: a Triangle that is built first and then copied is read back in
   // pieces of another size than it was written in, which stalls on the store buffer.

@@ -51,6 +51,26 @@ class CodeReader {
   const std::byte *here_ = nullptr, *end_ = nullptr;
 };
 
+// Null, or the address of `given` in `all`, each once: a recording may outlive the reader.
+template <class Use>
+const Use* own_copy(const Use* given, std::deque<Use>* all) {
+  if (given == nullptr) return nullptr;
+  const auto found = std::ranges::find(*all, *given);
+  return found != all->end() ? &*found : &all->emplace_back(*given);
+}
+
+// Its number from 1 on; 0: null.
+template <class Use>
+uint64_t number_in(const std::deque<Use>& all, const Use* own) {
+  return own == nullptr ? 0 : 1 + uint64_t(std::ranges::find(all, *own) - all.begin());
+}
+
+template <class Use>
+const Use* with_number(const std::deque<Use>& all, uint64_t number) {
+  if (number > all.size()) fail_changed();
+  return number == 0 ? nullptr : &all[size_t(number - 1)];
+}
+
 LeftOut read_once(MeshReader reader, const File& file, const ReadOptions& options,
                   const TriangleSink& sink) {
   MeshWriter out(options, file.path(), sink);
@@ -98,15 +118,19 @@ void MeshWriter::material(std::string_view name, std::optional<Colour> colour) {
 }
 
 void MeshWriter::cut_out(const CutOut* cut) {
-  const CutOut* own = nullptr;  // a recording may outlive the reader
-  if (cut != nullptr) {
-    const auto found = std::ranges::find(cuts_, *cut);
-    own = found != cuts_.end() ? &*found : &cuts_.emplace_back(*cut);
-  }
+  const CutOut* const own = own_copy(cut, &cuts_);
   if (!recording_) return out_.cut_out(own);
   if (marks_) return;
   put_code(kCut);
-  put_code(own == nullptr ? 0 : 1 + uint64_t(std::ranges::find(cuts_, *own) - cuts_.begin()));
+  put_code(number_in(cuts_, own));
+}
+
+void MeshWriter::paint(const Paint* paint) {
+  const Paint* const own = own_copy(paint, &paints_);
+  if (!recording_) return out_.paint(own == nullptr && !colours_.empty() ? &by_vertices_ : own);
+  if (marks_) return;
+  put_code(kPaint);
+  put_code(number_in(paints_, own));
 }
 
 void MeshWriter::record_texture(const TexturePoint& texture) {
@@ -275,7 +299,7 @@ void MeshWriter::replay() {
       }
       ++corners;
     } else if (code == kEnd) {
-      if (corners == 3 && is_textured) out_.add_cut({first}, first_texture);
+      if (corners == 3 && is_textured) out_.add_textured({first}, first_texture);
       if (corners == 3 && !is_textured) out_.add(first[0], first[1], first[2]);
       if (corners > 3) triangulator_.finish(out_);
       corners = 0;
@@ -286,9 +310,9 @@ void MeshWriter::replay() {
       std::memcpy(&texture, bytes.data(), sizeof texture);
       is_textured = true;
     } else if (code == kCut) {
-      const uint64_t number = codes.code();
-      if (number > cuts_.size()) fail_changed();
-      out_.cut_out(number == 0 ? nullptr : &cuts_[size_t(number - 1)]);
+      out_.cut_out(with_number(cuts_, codes.code()));
+    } else if (code == kPaint) {
+      out_.paint(with_number(paints_, codes.code()));
     } else {
       std::array<uint8_t, 4> more;
       for (uint8_t& each : more) each = codes.byte();

@@ -55,7 +55,7 @@ class Triangulator {
     corner(p);
     colours_.push_back(colour);
   }
-  // The same, of a polygon whose corners are all in a texture that is cut out.
+  // The same, of a polygon whose corners are all in a texture.
   void corner(const Point& p, const TexturePoint& texture) {
     corner(p);
     if (texture_.capacity() < corners_.capacity()) grow_texture();

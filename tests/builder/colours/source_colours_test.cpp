@@ -1,0 +1,132 @@
+// The colours of formats beside glTF: where each format has them, and in which range.
+#include <gmock/gmock.h>
+
+#include "tests/builder/colours/coloured_scene.h"
+#include "tests/io/scene/png_file.h"
+
+namespace svdag {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class SourceColours : public ColouredScene {
+ protected:
+  static constexpr int kPerUnit = 60;
+  // Of the texture, in texels.
+  static constexpr int kTexels = 4;
+
+  static Light texel(int i, int j) { return light(20 + 70 * i, 20 + 70 * j, 90); }
+
+  // Its texels, row by row from the top.
+  static std::string texture() {
+    std::string texels;
+    for (int j = 0; j < kTexels; ++j) {
+      for (int i = 0; i < kTexels; ++i) texels += rgb(20 + 70 * i, 20 + 70 * j, 90);
+    }
+    return png(kTexels, kTexels, PngKind::kRgb, texels);
+  }
+
+  // Between the centres of texels, v from the top; both of 0 .. 1 are the whole image.
+  static Light bilinear(double u, double v, bool clamp = false) {
+    const auto wrapped = [&](double i) {
+      return int(clamp ? std::min(std::max(i, 0.0), kTexels - 1.0)
+                       : i - kTexels * std::floor(i / kTexels));
+    };
+    const double x = kTexels * u - 0.5, y = kTexels * v - 0.5, i = std::floor(x), j = std::floor(y);
+    const double s = x - i, t = y - j;
+    Light mix{};
+    for (const int a : {0, 1}) {
+      for (const int b : {0, 1}) {
+        const Light corner = texel(wrapped(i + a), wrapped(j + b));
+        for (size_t c = 0; c < 3; ++c) mix[c] += corner[c] * (a ? s : 1 - s) * (b ? t : 1 - t);
+      }
+    }
+    return mix;
+  }
+
+  // Unit squares in the plane z = 0, 1.2 apart.
+  static Point square(int k) { return Point(1.2 * k, 0, 0); }
+  static std::string vertices(int k, const std::string& before = "",
+                              const std::string& after = "") {
+    std::string lines;
+    for (const auto& [x, y] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
+      lines += before + std::to_string(1.2 * k + x) + " " + std::to_string(y) + " 0" + after + "\n";
+    return lines;
+  }
+
+  void expect_square(int k, const Light& colour, double steps = 0.05) {
+    in_square(square(k), [&](double, double, const Point& p) { expect(p, colour, steps); });
+  }
+
+  // A square of each material, whose coordinates are x and y; `faces`: of the squares.
+  void colour_obj(const std::vector<std::string>& materials, std::vector<std::string> faces = {}) {
+    std::string mtl, obj = "mtllib a.mtl\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 1e300 0\n";
+    faces.resize(materials.size(), "f -4/1 -3/2 -2/3 -1/4");
+    for (size_t k = 0; k < materials.size(); ++k) {
+      const std::string name = "m" + std::to_string(k);
+      mtl += "newmtl " + name + "\n" + materials[k];
+      obj += vertices(int(k), "v ") + "usemtl " + name + "\n" + faces[k] + "\n";
+    }
+    folder_.write("a.mtl", mtl);
+    colour(folder_.write("a.obj", obj), kPerUnit);
+  }
+};
+
+TEST_F(SourceColours, MapKdOfObjReplacesKd) {
+  folder_.write("two words.png", texture());
+  colour_obj({"Kd 0 0 0\nmap_Kd two words.png\n",
+              "Kd 1 1 1\nmap_Kd -s 2 0.5 1 -o 0.25 0.5 two words.png\n",
+              "map_Kd -clamp on -s 3 3 -o -1 -1 two words.png\n"});
+  EXPECT_TRUE(report_.scene.unread_images.empty());
+  in_square(square(0),
+            [&](double x, double y, const Point& p) { expect(p, bilinear(x, 1 - y), 1); });
+  in_square(square(1), [&](double x, double y, const Point& p) {
+    expect(p, bilinear(2 * x + 0.25, 1 - (0.5 * y + 0.5)), 1.5);
+  });
+  in_square(square(2), [&](double x, double y, const Point& p) {
+    expect(p, bilinear(3 * x - 1, 1 - (3 * y - 1), true), 2);
+  });
+}
+
+TEST_F(SourceColours, ObjFacesThatAreNowhereInATextureHaveKd) {
+  folder_.write("a.png", texture());
+  const std::string green = "Kd 0 1 0\nmap_Kd ";
+  colour_obj({green + "a.png\n", green + "a.png\n", green + "a.png\n", green + "none.png\n",
+              green + "a.png\n"},
+             {"f -4 -3 -2 -1", "f -4/1 -3/5 -2/3 -1/4", "f -4/1 -3 -2/3 -1/4",
+              "f -4/1 -3/2 -2/3 -1/4", "f -4/1 -3/2 -2/77 -1/4"});
+  for (int k = 0; k < 5; ++k) expect_square(k, {0, 1, 0});
+  EXPECT_EQ(omissions(Omission::kTexturePoints), 6U);
+  EXPECT_THAT(report_.scene.unread_images, ElementsAre(HasSubstr("none.png")));
+}
+
+TEST_F(SourceColours, WhatMapDOfObjCutsOutIsInNoMean) {
+  // The right half is magenta and transparent.
+  std::string texels, mask;
+  for (int i = 0; i < 64; ++i) texels += i % 8 < 4 ? rgb(40, 160, 60) : rgb(255, 0, 255);
+  for (int i = 0; i < 16; ++i) mask += i % 4 < 2 ? char(255) : char(0);
+  folder_.write("a.png", png(8, 8, PngKind::kRgb, texels));
+  folder_.write("mask.png", png(4, 4, PngKind::kGrey, mask));
+  colour_obj({"map_Kd a.png\nmap_d mask.png\n"});
+  int green = 0;
+  in_square(square(0), [&](double, double, const Point& p) {
+    if (at(p) == nullptr) return;
+    ++green;
+    expect(p, light(40, 160, 60), 0.05);
+  });
+  EXPECT_GT(green, kPerUnit * kPerUnit / 3);
+  EXPECT_LT(green, kPerUnit * kPerUnit * 2 / 3);
+}
+
+TEST_F(SourceColours, ObjColoursOfVerticesMultiplyTheTexture) {
+  folder_.write("a.png", one_texel(200, 100, 50));
+  folder_.write("a.mtl", "newmtl m\nmap_Kd a.png\n");
+  colour(folder_.write("a.obj", "mtllib a.mtl\nvt 0 0\nusemtl m\n" + vertices(0, "v ", " 1 0.5 0") +
+                                    "f 1/1 2/1 3/1 4/1\n"),
+         kPerUnit);
+  expect_square(0, {light(200), light(100) * light(127.5), 0}, 0.5);
+}
+
+}  // namespace
+}  // namespace svdag
