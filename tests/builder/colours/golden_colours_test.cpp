@@ -2,10 +2,15 @@
 // factors, colours of vertices and masks, by formulas of the glTF specification.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
+#include "io/scene/decoders/image.h"
 #include "tests/builder/colours/coloured_scene.h"
 #include "tests/shared_scenes.h"
 
@@ -127,6 +132,85 @@ TEST_F(GoldenColours, CoordinateSetsTransformsFactorsAndColoursOfVertices) {
   in_square(square(6), [&](double x, double y, const Point& centre) {
     expect(centre, repeated(x, 1 - y), 0.05);
   });
+}
+
+// The quads of the Khronos sample, by the formula of KHR_texture_transform, where their images are
+// plain.
+TEST_F(GoldenColours, TextureTransformTest) {
+  SVDAG_NEEDS_SHARED_SCENES();
+  const std::string path = shared_scene("texture_transform_test.glb");
+  colour(path, 100);
+  std::ifstream in(path, std::ios::binary);
+  const std::string glb{std::istreambuf_iterator<char>(in), {}};
+  uint32_t json_bytes = 0;
+  std::memcpy(&json_bytes, &glb[12], sizeof json_bytes);
+  const nlohmann::json json = nlohmann::json::parse(glb.substr(20, json_bytes));
+  const auto view = [&](size_t i) {
+    const auto& v = json["bufferViews"][i];
+    return std::as_bytes(std::span(glb).subspan(28 + json_bytes + v.value("byteOffset", 0U),
+                                                v["byteLength"].get<size_t>()));
+  };
+  MemoryBudget budget;
+  for (const auto& node : json["nodes"]) {
+    const std::string name = node["name"];
+    if (name.find(" - ") != name.npos) continue;  // the marks
+    SCOPED_TRACE(name);
+    const auto& primitive = json["meshes"][node["mesh"].get<size_t>()]["primitives"][0];
+    std::array<float, 8> uv;  // of the corners
+    const auto& accessor = json["accessors"][primitive["attributes"]["TEXCOORD_0"].get<size_t>()];
+    std::memcpy(uv.data(), view(accessor["bufferView"]).data(), sizeof uv);
+    std::array<float, 12> corners;
+    std::memcpy(corners.data(), view(0).data(), sizeof corners);
+    const auto& texture = json["materials"][primitive["material"].get<size_t>()]
+                              ["pbrMetallicRoughness"]["baseColorTexture"];
+    const auto& transform = texture["extensions"]["KHR_texture_transform"];
+    const auto pair = [&](const char* key, double fallback) {
+      return transform.value(key, std::array<double, 2>{fallback, fallback});
+    };
+    const auto offset = pair("offset", 0), scale = pair("scale", 1);
+    const double angle = transform.value("rotation", 0.0);
+    const ColourTexels image = colours_of_image(
+        {view(json["images"][texture["index"].get<size_t>()]["bufferView"]), path}, &budget);
+    const auto texel = [&](int64_t i, int64_t j) {
+      const int64_t column = std::clamp<int64_t>(i, 0, image.width - 1);
+      const uint8_t* const rgba = &image.rgba[size_t(
+          4 * (std::clamp<int64_t>(j, 0, image.height - 1) * image.width + column))];
+      return std::array<uint8_t, 3>{rgba[0], rgba[1], rgba[2]};
+    };
+    // Coordinates are linear in x and y: of the corner at the low end, and by the others.
+    const auto coordinate = [&](double x, double y) {
+      std::array<double, 2> at{};
+      for (size_t k = 0; k < 4; ++k) {
+        const double share =
+            (corners[3 * k] > 0 ? x : 1 - x) * (corners[3 * k + 1] > 0 ? y : 1 - y);
+        for (size_t c = 0; c < 2; ++c) at[c] += share * uv[2 * k + c];
+      }
+      return at;
+    };
+    const auto& t = node["translation"];
+    const Point low(t[0].get<double>() - 0.5, t[1].get<double>() - 0.5, 0);
+    std::set<std::array<uint8_t, 3>> seen;
+    const int n = 100;
+    for (int i = 2; i + 2 < n; ++i) {
+      for (int j = 2; j + 2 < n; ++j) {
+        const Point p = low + Point((i + 0.5) / n, (j + 0.5) / n, -0.5 / n);
+        const auto at = coordinate(p.x - low.x, p.y - low.y);
+        const double s = scale[0] * at[0], r = scale[1] * at[1];
+        const double u = image.width * (std::cos(angle) * s + std::sin(angle) * r + offset[0]);
+        const double v = image.height * (std::cos(angle) * r - std::sin(angle) * s + offset[1]);
+        const auto middle = texel(int64_t(std::floor(u)), int64_t(std::floor(v)));
+        bool is_plain = true;
+        for (int a = -4; a <= 4; ++a) {
+          for (int b = -4; b <= 4; ++b)
+            is_plain &= texel(int64_t(std::floor(u)) + a, int64_t(std::floor(v)) + b) == middle;
+        }
+        if (!is_plain) continue;
+        expect(p, light(middle[0], middle[1], middle[2]), 0.05);
+        seen.insert(middle);
+      }
+    }
+    EXPECT_GT(seen.size(), 1U);
+  }
 }
 
 }  // namespace
