@@ -190,13 +190,7 @@ class ObjReader {
     for (int a = 0; a < 3; ++a) p[a] = scanner_.number();
     if (options_.paints == nullptr) return out_.vertex(p);
     std::array<double, 4> more;  // red, green and blue, after a weight if there are four
-    size_t n = 0;
-    const auto has_number = [&] {
-      return !scanner_.at_line_end() &&
-             std::string_view("+-.0123456789").find(scanner_.visible().front()) !=
-                 std::string::npos;
-    };
-    while (n < more.size() && has_number()) more[n++] = scanner_.number();
+    const size_t n = scanner_.numbers(more);
     if (out_.vertices() == 0) {
       is_coloured_ = n >= 3;
       if (is_coloured_) out_.begin_coloured(MeshWriter::Precision::kDouble, file_.size());

@@ -55,6 +55,13 @@ class SourceColours : public ColouredScene {
     return lines;
   }
 
+  // Where the colour is linear in light, but for bends.
+  void expect_light(const Point& p, const Light& expected) const {
+    ASSERT_NE(at(p), nullptr) << p.x << " " << p.y;
+    for (size_t c = 0; c < 3; ++c)
+      EXPECT_NEAR((*at(p))[c], expected[c], 0.015) << p.x << " " << p.y << ", channel " << c;
+  }
+
   void expect_square(int k, const Light& colour, double steps = 0.05) {
     in_square(square(k), [&](double, double, const Point& p) { expect(p, colour, steps); });
   }
@@ -80,12 +87,12 @@ TEST_F(SourceColours, MapKdOfObjReplacesKd) {
               "map_Kd -clamp on -s 3 3 -o -1 -1 two words.png\n"});
   EXPECT_TRUE(report_.scene.unread_images.empty());
   in_square(square(0),
-            [&](double x, double y, const Point& p) { expect(p, bilinear(x, 1 - y), 1); });
+            [&](double x, double y, const Point& p) { expect_light(p, bilinear(x, 1 - y)); });
   in_square(square(1), [&](double x, double y, const Point& p) {
-    expect(p, bilinear(2 * x + 0.25, 1 - (0.5 * y + 0.5)), 1.5);
+    expect_light(p, bilinear(2 * x + 0.25, 1 - (0.5 * y + 0.5)));
   });
   in_square(square(2), [&](double x, double y, const Point& p) {
-    expect(p, bilinear(3 * x - 1, 1 - (3 * y - 1), true), 2);
+    expect_light(p, bilinear(3 * x - 1, 1 - (3 * y - 1), true));
   });
 }
 
@@ -96,7 +103,12 @@ TEST_F(SourceColours, ObjFacesThatAreNowhereInATextureHaveKd) {
               green + "a.png\n"},
              {"f -4 -3 -2 -1", "f -4/1 -3/5 -2/3 -1/4", "f -4/1 -3 -2/3 -1/4",
               "f -4/1 -3/2 -2/3 -1/4", "f -4/1 -3/2 -2/77 -1/4"});
-  for (int k = 0; k < 5; ++k) expect_square(k, {0, 1, 0});
+  // The lower right is the triangle of the second corner.
+  for (int k = 0; k < 5; ++k) {
+    in_square(square(k), [&](double x, double y, const Point& p) {
+      if (k == 0 || k == 3 || x > y + 0.05) expect(p, {0, 1, 0}, 0.05);
+    });
+  }
   EXPECT_EQ(omissions(Omission::kTexturePoints), 6U);
   EXPECT_THAT(report_.scene.unread_images, ElementsAre(HasSubstr("none.png")));
 }
@@ -126,6 +138,81 @@ TEST_F(SourceColours, ObjColoursOfVerticesMultiplyTheTexture) {
                                     "f 1/1 2/1 3/1 4/1\n"),
          kPerUnit);
   expect_square(0, {light(200), light(100) * light(127.5), 0}, 0.5);
+}
+
+TEST_F(SourceColours, PlyFacesHaveColoursUnlessVerticesDo) {
+  const auto ply = [](const std::string& of_vertices, const std::string& of_faces,
+                      const std::string& body) {
+    return "ply\nformat ascii 1.0\nelement vertex 12\nproperty float x\nproperty float y\n"
+           "property float z\n" +
+           of_vertices + "element face 3\n" + of_faces + "end_header\n" + body;
+  };
+  const std::string list = "property list uchar int vertex_indices\n";
+  const auto rgb_of = [](const std::string& type) {
+    return "property " + type + " red\nproperty " + type + " green\nproperty " + type + " blue\n";
+  };
+  const std::string places = vertices(0) + vertices(1) + vertices(2);
+  colour(folder_.write("after.ply", ply("", list + rgb_of("uchar"),
+                                        places + "4 0 1 2 3 200 100 50\n4 4 5 6 7 1 2 3\n"
+                                                 "4 8 9 10 11 1 2 3\n")),
+         kPerUnit);
+  expect_square(0, light(200, 100, 50));
+  expect_square(1, light(1, 2, 3));
+  expect_square(2, light(1, 2, 3));
+  colour(folder_.write("before.ply",
+                       ply("", rgb_of("float") + list,
+                           places + "1 0 .2 4 0 1 2 3\n0.5 2 0 4 4 5 6 7\n0 0 0 4 8 9 10 11\n")),
+         kPerUnit);
+  expect_square(0, light(255, 0, 51));
+  expect_square(1, light(128, 255, 0));
+  EXPECT_EQ(omissions(Omission::kBrightColours), 1U);
+  colour(folder_.write("both.ply", ply(rgb_of("ushort"), list + rgb_of("uchar"),
+                                       vertices(0, "", " 65535 0 0") + vertices(1, "", " 0 0 0") +
+                                           vertices(2, "", " 0 0 0") +
+                                           "4 0 1 2 3 200 100 50\n4 4 5 6 7 1 2 3\n"
+                                           "4 8 9 10 11 1 2 3\n")),
+         kPerUnit);
+  expect_square(0, {1, 0, 0});
+}
+
+TEST_F(SourceColours, BinaryPlyFacesHaveColours) {
+  std::string bytes =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\n"
+      "property float y\nproperty float z\nelement face 2\n"
+      "property list uchar int vertex_indices\nproperty uchar red\nproperty uchar green\n"
+      "property uchar blue\nend_header\n";
+  const auto put = [&](auto value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  for (const float x : {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}) put(x);
+  for (const int32_t first : {0, 2}) {
+    put(uint8_t(3));
+    for (const int32_t i : {first, first + 1, (first + 2) % 4}) put(i);
+    for (const int c : {first == 0 ? 250 : 10, 20, 30}) put(uint8_t(c));
+  }
+  colour(folder_.write("a.ply", bytes), kPerUnit);
+  expect(Point(0.75, 0.25, 0.001), light(250, 20, 30), 0.05);
+  expect(Point(0.25, 0.75, 0.001), light(10, 20, 30), 0.05);
+}
+
+TEST_F(SourceColours, OffColoursAreOfVerticesOrFaces) {
+  const std::string places = vertices(0) + vertices(1) + vertices(2) + vertices(3);
+  colour(folder_.write("faces.off", "OFF\n16 4 0\n" + places +
+                                        "4 0 1 2 3 200 100 50 128\n4 4 5 6 7 0.5 1 0 # half\n"
+                                        "4 8 9 10 11 1 0 0\n4 12 13 14 15 7\n"),
+         kPerUnit);
+  expect_square(0, light(200, 100, 50));
+  expect_square(1, light(128, 255, 0));
+  expect_square(2, {1, 0, 0});
+  expect_square(3, {1, 1, 1});
+  EXPECT_EQ(omissions(Omission::kColourIndices), 1U);
+  colour(folder_.write("vertices.off", "CNOFF\n8 2 0\n" + vertices(0, "", " 0 0 1 200 100 50 255") +
+                                           vertices(1, "", " 0 0 1 0.2 0 2 1") +
+                                           "4 0 1 2 3 9 9 9\n4 4 5 6 7\n"),
+         kPerUnit);
+  expect_square(0, light(200, 100, 50));
+  expect_square(1, light(51, 0, 255));
+  EXPECT_EQ(omissions(Omission::kBrightColours), 4U);
 }
 
 }  // namespace
