@@ -322,7 +322,6 @@ class GltfReader {
         const TextureCorners corners =
             texture.empty() ? TextureCorners() : TextureCorners{texture[a], texture[b], texture[c]};
         if (paint == nullptr) return out_.add_textured(t, corners);
-        if (!std::ranges::all_of(corners, is_placeable)) left_out_.add(Omission::kTexturePoints);
         out_.add_textured(
             t, corners,
             colours.empty() ? kWhiteCorners : CornerColours{colours[a], colours[b], colours[c]});

@@ -82,6 +82,7 @@ LeftOut read_once(MeshReader reader, const File& file, const ReadOptions& option
     throw;
   }
   out.finish();
+  left_out.add(Omission::kTexturePoints, out.unplaced());
   return left_out;
 }
 
@@ -133,11 +134,11 @@ void MeshWriter::paint(const Paint* paint) {
   put_code(number_in(paints_, own));
 }
 
-void MeshWriter::record_texture(const TexturePoint& texture) {
+void MeshWriter::record_texture(const Paintable& corner) {
   if (!recording_) start_recording();
   if (marks_) return;
   put_code(kTexture);
-  put_bytes(std::as_bytes(std::span(&texture, 1)));
+  put_bytes(std::as_bytes(std::span(&corner, 1)));
 }
 
 void MeshWriter::end_mesh() {
@@ -278,12 +279,12 @@ void MeshWriter::replay() {
   windows.rewind();
   CodeReader codes(codes_stream_, options_.budget);
   std::array<Point, 3> first;
-  TextureCorners first_texture{};
-  TexturePoint texture{};
+  std::array<Paintable, 3> first_paintable;
+  Paintable paintable;
   bool is_textured = false;  // the polygon
   uint64_t corners = 0;
-  const auto add_corner = [&](const Point& p, const TexturePoint& at) {
-    is_textured ? triangulator_.corner(p, at) : triangulator_.corner(p);
+  const auto add_corner = [&](const Point& p, const Paintable& at) {
+    is_textured ? triangulator_.corner(p, at.texture, at.colour) : triangulator_.corner(p);
   };
   while (!codes.at_end()) {
     const uint64_t code = codes.code();
@@ -292,22 +293,26 @@ void MeshWriter::replay() {
       const Point p = is_placed_ ? to_world_(as_stored) : as_stored;
       if (corners < 3) {
         first[corners] = p;
-        first_texture[corners] = texture;
+        first_paintable[corners] = paintable;
       } else {
-        for (size_t i = 0; corners == 3 && i < 3; ++i) add_corner(first[i], first_texture[i]);
-        add_corner(p, texture);
+        for (size_t i = 0; corners == 3 && i < 3; ++i) add_corner(first[i], first_paintable[i]);
+        add_corner(p, paintable);
       }
       ++corners;
     } else if (code == kEnd) {
-      if (corners == 3 && is_textured) out_.add_textured({first}, first_texture);
+      if (corners == 3 && is_textured) {
+        const auto& [a, b, c] = first_paintable;
+        out_.add_textured({first}, {a.texture, b.texture, c.texture},
+                          {a.colour, b.colour, c.colour});
+      }
       if (corners == 3 && !is_textured) out_.add(first[0], first[1], first[2]);
       if (corners > 3) triangulator_.finish(out_);
       corners = 0;
       is_textured = false;
     } else if (code == kTexture) {
-      std::array<uint8_t, sizeof texture> bytes;
+      std::array<uint8_t, sizeof paintable> bytes;
       for (uint8_t& each : bytes) each = codes.byte();
-      std::memcpy(&texture, bytes.data(), sizeof texture);
+      std::memcpy(&paintable, bytes.data(), sizeof paintable);
       is_textured = true;
     } else if (code == kCut) {
       out_.cut_out(with_number(cuts_, codes.code()));

@@ -116,10 +116,13 @@ class MeshWriter {
   }
   // The same, of a polygon with all of its corners in the texture of cut_out() or paint().
   void corner(uint64_t i, const TexturePoint& texture) {
-    if (points_ != nullptr) return triangulator_.corner(points_[i], texture);
-    if (!colours_.empty()) return triangulator_.corner(stored(i), texture, colours_[i]);
-    if (!positions_->spilled()) return triangulator_.corner(stored(i), texture);
-    record_texture(texture);
+    corner(i, texture, colours_.empty() ? kWhiteCorners[0] : colours_[i]);
+  }
+  // The same with the colour of the corner.
+  void corner(uint64_t i, const TexturePoint& texture, const VertexColour& colour) {
+    if (points_ != nullptr) return triangulator_.corner(points_[i], texture, colour);
+    if (!positions_->spilled()) return triangulator_.corner(stored(i), texture, colour);
+    record_texture({texture, colour});
     record(i);
   }
   // Fewer than three corners give no triangle.
@@ -147,6 +150,7 @@ class MeshWriter {
     draw_recorded();
     out_.flush();
   }
+  uint64_t unplaced() const { return out_.unplaced(); }
   // After an Error of the reader: passes on the polygons that were recorded before it.
   void finish_broken();
 
@@ -178,7 +182,13 @@ class MeshWriter {
     ++corners_;
   }
   void record_end();
-  void record_texture(const TexturePoint& texture);
+  // Of a corner.
+  struct Paintable {
+    TexturePoint texture{0, 0};
+    VertexColour colour{};
+    uint16_t padding = 0;
+  };
+  void record_texture(const Paintable& corner);
   void record_name(uint64_t kind, std::string_view name, std::array<uint8_t, 4> more);
   void put_code(uint64_t code);
   void put_bytes(std::span<const std::byte> bytes);
@@ -189,7 +199,7 @@ class MeshWriter {
 
   // A recording: for each corner kFirstWindow + the number of its window, kEnd after each polygon;
   // kMesh and kMaterial with a name; kCut and kPaint with the number of one, 0: none; kTexture with
-  // the place in a texture of the corner that follows.
+  // the place in a texture and the colour of the corner that follows.
   enum Code : uint64_t { kMesh, kMaterial, kEnd, kCut, kPaint, kTexture, kFirstWindow };
 
   const ReadOptions& options_;

@@ -211,8 +211,7 @@ class ObjReader {
 
   // Of a material with a texture: whole and plain if the face has no texture coordinates.
   void read_textured_face() {
-    bool is_first = true, has_texture = false, is_placed = true;
-    uint64_t corners = 0;
+    bool is_first = true, has_texture = false;
     while (!scanner_.at_line_end()) {
       const uint64_t index = vertex(scanner_.integer('/'));
       std::optional<TexturePoint> place;
@@ -230,15 +229,8 @@ class ObjReader {
       }
       if (place.has_value() != has_texture && surface_.cut != nullptr)
         scanner_.fail("has a face with texture coordinates at some of its corners only");
-      ++corners;
-      if (!has_texture) {
-        out_.corner(index);
-        continue;
-      }
-      is_placed &= place && is_placeable(*place);
-      out_.corner(index, place.value_or(kNowhere));
+      has_texture ? out_.corner(index, place.value_or(kNowhere)) : out_.corner(index);
     }
-    if (!is_placed && corners > 2) left_out_.add(Omission::kTexturePoints, corners - 2);
     out_.end_polygon();
   }
 

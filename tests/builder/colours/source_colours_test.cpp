@@ -3,6 +3,7 @@
 
 #include "tests/builder/colours/coloured_scene.h"
 #include "tests/io/scene/png_file.h"
+#include "tests/io/scene/zip_file.h"
 
 namespace svdag {
 namespace {
@@ -106,10 +107,10 @@ TEST_F(SourceColours, ObjFacesThatAreNowhereInATextureHaveKd) {
   // The lower right is the triangle of the second corner.
   for (int k = 0; k < 5; ++k) {
     in_square(square(k), [&](double x, double y, const Point& p) {
-      if (k == 0 || k == 3 || x > y + 0.05) expect(p, {0, 1, 0}, 0.05);
+      if (k == 0 || k >= 3 || x > y + 0.05) expect(p, {0, 1, 0}, 0.05);
     });
   }
-  EXPECT_EQ(omissions(Omission::kTexturePoints), 6U);
+  EXPECT_EQ(omissions(Omission::kTexturePoints), 4U);
   EXPECT_THAT(report_.scene.unread_images, ElementsAre(HasSubstr("none.png")));
 }
 
@@ -214,6 +215,130 @@ TEST_F(SourceColours, OffColoursAreOfVerticesOrFaces) {
   expect_square(1, light(51, 0, 255));
   EXPECT_EQ(omissions(Omission::kBrightColours), 4U);
 }
+
+#ifdef SVDAG_HAS_3MF
+TEST_F(SourceColours, CornersOfThreeMfHaveColoursOrAPlaceInATexture) {
+  std::string places, triangles;
+  for (int k = 0; k < 4; ++k) {
+    for (const auto& [x, y] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
+      places +=
+          "<vertex x='" + std::to_string(1.2 * k + x) + "' y='" + std::to_string(y) + "' z='0'/>";
+  }
+  const auto square_of = [&](int k, const std::string& first, const std::string& second) {
+    const auto vertex = [&](int i) { return std::to_string(4 * k + i); };
+    triangles += "<triangle v1='" + vertex(0) + "' v2='" + vertex(1) + "' v3='" + vertex(2) + "' " +
+                 first + "/><triangle v1='" + vertex(0) + "' v2='" + vertex(2) + "' v3='" +
+                 vertex(3) + "' " + second + "/>";
+  };
+  square_of(0, "pid='5' p1='0' p2='1' p3='1'", "pid='5' p1='0' p2='1' p3='0'");
+  square_of(1, "pid='6' p1='0' p2='1' p3='2'", "pid='6' p1='0' p2='2' p3='3'");
+  square_of(2, "pid='7' p1='0' p2='1' p3='2'", "pid='7' p1='0' p2='2' p3='3'");
+  square_of(3, "", "");  // as the object
+  const std::string coordinates =
+      "<m:tex2coord u='0' v='0'/><m:tex2coord u='1' v='0'/><m:tex2coord u='1' v='1'/>"
+      "<m:tex2coord u='0' v='1'/></m:texture2dgroup>";
+  const std::string model =
+      "<model unit='meter'><resources><m:colorgroup id='5'><m:color color='#ff0000'/>"
+      "<m:color color='#0000FF80'/></m:colorgroup>"
+      "<m:texture2d id='8' path='/3D/Textures/a.png' contenttype='image/png'/>"
+      "<m:texture2d id='9' path='/3D/Textures/none.png' contenttype='image/png'/>"
+      "<m:texture2dgroup id='6' texid='8'>" +
+      coordinates + "<m:texture2dgroup id='7' texid='9'>" + coordinates +
+      "<object id='1' pid='5' pindex='1'><mesh><vertices>" + places + "</vertices><triangles>" +
+      triangles +
+      "</triangles></mesh></object></resources><build><item objectid='1'/></build></model>";
+  colour(
+      folder_.write("a.3mf", zip({{"3D/3dmodel.model", model}, {"3D/Textures/a.png", texture()}})),
+      kPerUnit);
+  // Red at x = 0 and blue at x = 1.
+  in_square(square(0), [&](double x, double, const Point& p) { expect(p, {1 - x, 0, x}, 1); });
+  in_square(square(1),
+            [&](double x, double y, const Point& p) { expect_light(p, bilinear(x, 1 - y)); });
+  expect_square(2, {1, 1, 1});
+  expect_square(3, {0, 0, 1});
+  EXPECT_THAT(report_.scene.unread_images, ElementsAre(HasSubstr("a.3mf: 3D/Textures/none.png")));
+}
+#endif
+
+#ifdef SVDAG_HAS_UFBX
+TEST_F(SourceColours, FbxHasTexturesInTheFileAndColoursOfVertices) {
+  const std::string image = texture();
+  const auto base64 = [](const std::string& bytes) {
+    const std::string_view digits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (size_t i = 0; i < bytes.size(); i += 3) {
+      uint32_t group = 0;
+      for (size_t k = 0; k < 3; ++k)
+        group = group << 8 | (i + k < bytes.size() ? uint8_t(bytes[i + k]) : 0U);
+      for (size_t k = 0; k < 4; ++k)
+        text += i + k <= bytes.size() ? digits[group >> (18 - 6 * k) & 63] : '=';
+    }
+    return text;
+  };
+  std::string objects, connections;
+  const auto add_square = [&](int k, const std::string& layers) {
+    const std::string id = std::to_string(k + 1);
+    std::string places;
+    for (const auto& [x, y] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
+      places += std::to_string(1.2 * k + x) + "," + std::to_string(y) + ",0,";
+    places.pop_back();
+    objects += "Geometry: 1" + id + ", \"Geometry::g\", \"Mesh\" {\nVertices: *12 {\na: " + places +
+               "\n}\nPolygonVertexIndex: *4 {\na: 0,1,2,-4\n}\nGeometryVersion: 124\n" + layers +
+               "LayerElementMaterial: 0 {\nMappingInformationType: \"AllSame\"\n"
+               "ReferenceInformationType: \"IndexToDirect\"\nMaterials: *1 {\na: 0\n}\n}\n"
+               "LayerElementUV: 0 {\nMappingInformationType: \"ByPolygonVertex\"\n"
+               "ReferenceInformationType: \"Direct\"\nUV: *8 {\na: 0,0,1,0,1,1,0,1\n}\n}\n"
+               "Layer: 0 {\nLayerElement: {\nType: \"LayerElementMaterial\"\nTypedIndex: 0\n}\n"
+               "LayerElement: {\nType: \"LayerElementUV\"\nTypedIndex: 0\n}\n"
+               "LayerElement: {\nType: \"LayerElementColor\"\nTypedIndex: 0\n}\n}\n}\n"
+               "Model: 2" +
+               id +
+               ", \"Model::m\", \"Mesh\" {\n}\n"
+               "Material: 3" +
+               id +
+               ", \"Material::c\", \"\" {\nShadingModel: \"lambert\"\n"
+               "Properties70: {\nP: \"DiffuseColor\", \"Color\", \"\", \"A\",0,1,0\n}\n}\n";
+    connections += "C: \"OO\",2" + id + ",0\nC: \"OO\",1" + id + ",2" + id + "\nC: \"OO\",3" + id +
+                   ",2" + id + "\n";
+  };
+  const auto add_texture = [&](int k, const std::string& name, const std::string& content) {
+    const std::string id = std::to_string(k + 1);
+    objects += "Texture: 4" + id +
+               ", \"Texture::t\", \"\" {\nType: \"TextureVideoClip\"\n"
+               "RelativeFilename: \"" +
+               name + "\"\nFileName: \"" + name +
+               "\"\n}\n"
+               "Video: 5" +
+               id +
+               ", \"Video::v\", \"Clip\" {\nType: \"Clip\"\n"
+               "RelativeFilename: \"" +
+               name + "\"\nFilename: \"" + name + "\"\n" + content + "}\n";
+    connections +=
+        "C: \"OP\",4" + id + ",3" + id + ", \"DiffuseColor\"\nC: \"OO\",5" + id + ",4" + id + "\n";
+  };
+  const std::string colours =
+      "LayerElementColor: 0 {\nMappingInformationType: \"ByPolygonVertex\"\n"
+      "ReferenceInformationType: \"Direct\"\nColors: *16 {\n"
+      "a: 1,0.5,0,1,1,0.5,0,1,1,0.5,0,1,1,0.5,0,1\n}\n}\n";
+  add_square(0, "");
+  add_texture(0, "a.png", "Content: ,\n\"" + base64(image) + "\"\n");
+  add_square(1, colours);
+  add_square(2, "");
+  add_texture(2, "beside.png", "");
+  colour(folder_.write("a.fbx",
+                       "; FBX 7.4.0 project file\nFBXHeaderExtension: {\nFBXVersion: 7400\n}\n"
+                       "Objects: {\n" +
+                           objects + "}\nConnections: {\n" + connections + "}\n"),
+         kPerUnit);
+  in_square(square(0),
+            [&](double x, double y, const Point& p) { expect_light(p, bilinear(x, 1 - y)); });
+  expect_square(1, {0, light(127.5), 0}, 0.5);
+  expect_square(2, {0, 1, 0});
+  EXPECT_THAT(report_.scene.unread_images,
+              ElementsAre(HasSubstr("beside.png: this texture is not")));
+}
+#endif
 
 }  // namespace
 }  // namespace svdag
