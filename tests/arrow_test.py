@@ -136,7 +136,7 @@ LIBRARIES = {
     r"expat": r"io/scene/readers/three_mf_model\.cpp",
     r"unzip\.h": r"io/scene/decoders/zip_archive\.cpp",
     r"meshoptimizer": r"io/scene/decoders/meshopt\.cpp|tests/io/scene/gltf/gltf_meshopt_test\.cpp",
-    r"zlib": r"io/formats/voxels/zip\.cpp|io/scene/decoders/gzip\.cpp|verify/view/tile_file\.cpp|tests/io/scene/(decoders/gzip_test\.cpp|png_file\.h)",
+    r"zlib": r"io/formats/voxels/zip\.cpp|io/scene/decoders/gzip\.cpp|verify/view/tile_file\.cpp|tests/io/scene/(decoders/gzip_test\.cpp|(png|zip)_file\.h)",
     r"httplib": r"verify/view/server\.cpp",
     r"draco/": r"io/scene/decoders/draco\.cpp|tests/.*",
     r"stb_?|stb/": r"verify/trace/image\.cpp|io/scene/decoders/image\.cpp|tests/io/scene/decoders/image_test\.cpp",

@@ -69,9 +69,10 @@ void SceneReader::paint_corners(const TriangleBatch& batch, size_t k, uint32_t p
                                 PaintedTriangle* t) {
   const CornerColours& colours = batch.corner_colours[k];
   if (batch.paint->image && !std::ranges::all_of(batch.texture[k], is_placeable)) {
-    // Nowhere in its texture, so it has none.
+    // Nowhere in its texture, so it has the colour of its material.
     Paint plain;
-    plain.factor = batch.paint->factor;
+    const std::array<uint16_t, 3> colour = colour_of(batch);
+    for (size_t c = 0; c < 3; ++c) plain.factor[c] = double(colour[c]) / kWhite16;
     TriangleBatch untextured = batch;
     untextured.paint = &plain;
     return paint_corners(untextured, k, number_of(plain), t);

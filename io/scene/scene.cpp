@@ -210,15 +210,12 @@ LeftOut Scene::read_pose(const PoseTime* time, std::string_view frame, const Nam
       fail_usage(path + (frame.empty() ? ": --time" : ": --frames") +
                  ": svdag follows only animations of glTF");
     if (config_.only) options.box_alone = nullptr;
-    const size_t means = images_.size();
     if (to_world == Affine()) {
       left_out += read_scene_file(detect_format(file), file, options, filtered);
     } else {
       options.box_alone = nullptr;  // it would hold coordinates of the file, not of the world
       left_out += read_scene_file(detect_format(file), file, options, ToWorld(to_world, filtered));
     }
-    if (config_.paint && images_.size() > means)
-      paints_.note(path + ": textures count with their mean: their coordinates are not read");
     if (unit != 0 && std::ranges::find(counts->units, unit) == counts->units.end())
       counts->units.push_back(unit);
   }

@@ -4,7 +4,9 @@
 
 #include <cstdlib>
 
+#include "io/scene/colours/linear_images.h"
 #include "io/scene/cutouts/alpha_images.h"
+#include "io/scene/decoders/image.h"
 #include "io/scene/polygons/mesh_writer.h"
 #include "streaming/error.h"
 #include "tests/memory_file.h"
@@ -14,9 +16,8 @@ namespace svdag {
 constexpr uint64_t kReaderMemory = uint64_t(64) << 20;
 constexpr uint64_t kDecoderMemory = uint64_t(256) << 20;  // of formats that are decoded as a whole
 
-inline int fuzz_reader(MeshReader reader, const uint8_t* data, size_t size,
-                       uint64_t limit = kReaderMemory, const PoseTime* time = nullptr) {
-  const MemoryFile memory(std::as_bytes(std::span(data, size)));
+inline void fuzz_reading(MeshReader reader, const File& file, uint64_t limit, const PoseTime* time,
+                         bool is_painted) {
   MemoryBudget budget(limit);
   const NameFilter names;
   try {
@@ -24,9 +25,16 @@ inline int fuzz_reader(MeshReader reader, const uint8_t* data, size_t size,
     options.time = time;
     AlphaImages alpha(&budget, false);
     options.alpha = &alpha;
-    read_meshes(reader, memory.file(), options, [](const TriangleBatch& batch) {
-      if (batch.triangles.empty() || batch.triangles.size() > BatchWriter::kBatch) std::abort();
-      if (batch.texture.size() != (batch.cut == nullptr ? 0 : batch.triangles.size())) std::abort();
+    ImageMeans means(&budget, false);
+    LinearImages images(&budget, false);
+    if (is_painted) options.images = &means;
+    if (is_painted) options.paints = &images;
+    read_meshes(reader, file, options, [](const TriangleBatch& batch) {
+      const size_t triangles = batch.triangles.size();
+      if (triangles == 0 || triangles > BatchWriter::kBatch) std::abort();
+      const bool is_textured = batch.cut != nullptr || batch.paint != nullptr;
+      if (batch.texture.size() != (is_textured ? triangles : 0)) std::abort();
+      if (batch.corner_colours.size() != (batch.paint != nullptr ? triangles : 0)) std::abort();
     });
   } catch (const Error& error) {
     const bool expected = error.code() == ExitCode::kBadInput ||
@@ -35,6 +43,13 @@ inline int fuzz_reader(MeshReader reader, const uint8_t* data, size_t size,
     if (!expected || std::string(error.what()).empty()) std::abort();
   }
   if (budget.used() != 0) std::abort();
+}
+
+inline int fuzz_reader(MeshReader reader, const uint8_t* data, size_t size,
+                       uint64_t limit = kReaderMemory, const PoseTime* time = nullptr) {
+  const MemoryFile memory(std::as_bytes(std::span(data, size)));
+  for (const bool is_painted : {false, true})
+    fuzz_reading(reader, memory.file(), limit, time, is_painted);
   return 0;
 }
 

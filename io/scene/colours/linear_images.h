@@ -5,10 +5,12 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "io/scene/colours/linear_image.h"
+#include "io/scene/cutouts/alpha_image.h"
 
 namespace svdag {
 
@@ -22,8 +24,10 @@ class LinearImages {
   // The image `name`, which is unique to it, with the texels below `threshold` cut out; read() is
   // called the first time. Null, and a note, for one that cannot be read: the triangles have the
   // colour of their material without it.
+  // `mask`: another image, whose alpha at the centre of a texel counts instead of the texel's.
   std::shared_ptr<const LinearImage> image(const std::string& name, double threshold,
-                                           const Read& read);
+                                           const Read& read,
+                                           std::shared_ptr<const AlphaImage> mask = nullptr);
 
   MemoryBudget* budget() const { return budget_; }
   // "PATH: what is wrong", of each image that cannot be read and each note.
@@ -34,7 +38,8 @@ class LinearImages {
  private:
   MemoryBudget* budget_;
   bool sandbox_;
-  std::map<std::pair<std::string, double>, std::shared_ptr<const LinearImage>> images_;
+  using Key = std::tuple<std::string, double, std::shared_ptr<const AlphaImage>>;
+  std::map<Key, std::shared_ptr<const LinearImage>> images_;
   std::vector<std::string> notes_;
 };
 

@@ -21,7 +21,13 @@ namespace {
 constexpr uint64_t kDracoBytesPerElement = 256;
 
 // Messages of the child: of each mesh in this order.
-enum DracoMessage : uint64_t { kDracoStep, kDracoPositions, kDracoIndices, kDracoEnd };
+enum DracoMessage : uint64_t {
+  kDracoStep,
+  kDracoPositions,
+  kDracoAttribute,
+  kDracoIndices,
+  kDracoEnd
+};
 
 [[noreturn]] void fail_broken(const std::string& path, const std::string& reason) {
   fail_input(path, "has broken Draco data: " + reason);
@@ -52,50 +58,97 @@ struct PositionForm {
   Point minimum = Point(0);
 };
 
+// The vertices: the values of the positions, or, `by_points`, the points of the mesh.
+struct Vertices {
+  uint32_t count = 0;
+  bool by_points = false;
+};
+
 template <class Component>
-void send_positions(const draco::PointAttribute& attribute, const PositionForm& form,
-                    DecoderOutput* out) {
-  std::vector<Point> batch;
-  std::array<Component, 3> v{};
-  for (uint32_t i = 0; i < attribute.size(); ++i) {
-    attribute.GetValue(draco::AttributeValueIndex(i), v.data());
-    Point p;
-    for (int c = 0; c < 3; ++c) {
-      double value = double(v[size_t(c)]);
-      if (form.normalized && std::is_integral_v<Component>)
-        value = std::max(value / double(std::numeric_limits<Component>::max()), -1.0);
-      p[c] = form.quantised ? form.minimum[c] + value * form.step : value;
-    }
-    batch.push_back(p);
-    if (batch.size() == 4096 || i + 1 == attribute.size()) {
-      out->send(kDracoPositions, std::span<const Point>(batch));
-      batch.clear();
-    }
+double normalised(Component value) {
+  if (!std::is_integral_v<Component>) return double(value);
+  return std::max(double(value) / double(std::numeric_limits<Component>::max()), -1.0);
+}
+
+constexpr size_t kMaxComponents = 4;
+
+// Calls visit(its components) for each vertex.
+template <class Component, class Visit>
+void visit_values_of(const draco::PointAttribute& attribute, const Vertices& vertices,
+                     const std::string& path, const Visit& visit) {
+  std::array<Component, kMaxComponents> v{};
+  for (uint32_t i = 0; i < vertices.count; ++i) {
+    const draco::AttributeValueIndex at = vertices.by_points
+                                              ? attribute.mapped_index(draco::PointIndex(i))
+                                              : draco::AttributeValueIndex(i);
+    if (at.value() >= attribute.size()) fail_broken(path, "a point lacks a value");
+    attribute.GetValue(at, v.data());
+    visit(v);
   }
 }
 
-void send_positions(const draco::PointAttribute& attribute, const PositionForm& form,
-                    const std::string& path, DecoderOutput* out) {
+template <class Visit>
+void visit_values(const draco::PointAttribute& attribute, const Vertices& vertices,
+                  const std::string& path, const Visit& visit) {
   switch (attribute.data_type()) {
     case draco::DT_INT8:
-      return send_positions<int8_t>(attribute, form, out);
+      return visit_values_of<int8_t>(attribute, vertices, path, visit);
     case draco::DT_UINT8:
-      return send_positions<uint8_t>(attribute, form, out);
+      return visit_values_of<uint8_t>(attribute, vertices, path, visit);
     case draco::DT_INT16:
-      return send_positions<int16_t>(attribute, form, out);
+      return visit_values_of<int16_t>(attribute, vertices, path, visit);
     case draco::DT_UINT16:
-      return send_positions<uint16_t>(attribute, form, out);
+      return visit_values_of<uint16_t>(attribute, vertices, path, visit);
     case draco::DT_INT32:
-      return send_positions<int32_t>(attribute, form, out);
+      return visit_values_of<int32_t>(attribute, vertices, path, visit);
     case draco::DT_UINT32:
-      return send_positions<uint32_t>(attribute, form, out);
+      return visit_values_of<uint32_t>(attribute, vertices, path, visit);
     case draco::DT_FLOAT32:
-      return send_positions<float>(attribute, form, out);
+      return visit_values_of<float>(attribute, vertices, path, visit);
     case draco::DT_FLOAT64:
-      return send_positions<double>(attribute, form, out);
+      return visit_values_of<double>(attribute, vertices, path, visit);
     default:
-      fail_broken(path, "positions are of an unknown type");
+      fail_broken(path, "values are of an unknown type");
   }
+}
+
+void send_positions(const draco::PointAttribute& attribute, const Vertices& vertices,
+                    const PositionForm& form, const std::string& path, DecoderOutput* out) {
+  std::vector<Point> batch;
+  const auto send = [&] {
+    if (!batch.empty()) out->send(kDracoPositions, std::span<const Point>(batch));
+    batch.clear();
+  };
+  visit_values(attribute, vertices, path, [&](const auto& v) {
+    Point p;
+    for (int c = 0; c < 3; ++c) {
+      const double value = form.normalized ? normalised(v[size_t(c)]) : double(v[size_t(c)]);
+      p[c] = form.quantised ? form.minimum[c] + value * form.step : value;
+    }
+    batch.push_back(p);
+    if (batch.size() == 4096) send();
+  });
+  send();
+}
+
+void send_attribute(const draco::Mesh& mesh, const DracoAttribute& wanted, const Vertices& vertices,
+                    const std::string& path, DecoderOutput* out) {
+  const draco::PointAttribute* attribute =
+      mesh.GetAttributeByUniqueId(uint32_t(std::min<uint64_t>(wanted.id, UINT32_MAX)));
+  if (attribute == nullptr || uint64_t(attribute->num_components()) != wanted.components ||
+      wanted.components > kMaxComponents)
+    fail_broken(path, "it has no attribute " + std::to_string(wanted.id) + " of " +
+                          std::to_string(wanted.components) + " components");
+  std::vector<double> batch;
+  const auto send = [&] {
+    if (!batch.empty()) out->send(kDracoAttribute, std::span<const double>(batch));
+    batch.clear();
+  };
+  visit_values(*attribute, vertices, path, [&](const auto& v) {
+    for (size_t c = 0; c < wanted.components; ++c) batch.push_back(normalised(v[c]));
+    if (batch.size() >= 4096) send();
+  });
+  send();
 }
 
 PositionForm form_of(const draco::PointAttribute& attribute, const DracoSource& source,
@@ -130,14 +183,19 @@ void send_mesh(const draco::Mesh& mesh, const DracoSource& source, const std::st
                DecoderOutput* out) {
   const draco::PointAttribute* attribute = &positions_of(mesh, source, path);
   const PositionForm form = form_of(*attribute, source, path);
+  const bool by_points = !source.attributes.empty();
+  const Vertices vertices{by_points ? mesh.num_points() : uint32_t(attribute->size()), by_points};
   out->send_one(kDracoStep, form.step);
-  send_positions(*attribute, form, path, out);
+  send_positions(*attribute, vertices, form, path, out);
+  for (const DracoAttribute& each : source.attributes)
+    send_attribute(mesh, each, vertices, path, out);
   std::vector<uint32_t> indices;
   for (uint32_t f = 0; f < mesh.num_faces(); ++f) {
     for (const draco::PointIndex& point : mesh.face(draco::FaceIndex(f))) {
-      const uint32_t value =
-          point < mesh.num_points() ? attribute->mapped_index(point).value() : UINT32_MAX;
-      if (value >= attribute->size()) fail_broken(path, "a triangle has no such vertex");
+      const uint32_t value = point >= mesh.num_points() ? UINT32_MAX
+                             : by_points                ? point.value()
+                                                        : attribute->mapped_index(point).value();
+      if (value >= vertices.count) fail_broken(path, "a triangle has no such vertex");
       indices.push_back(value);
     }
     if (indices.size() >= 3 * 8192 || f + 1 == mesh.num_faces()) {
@@ -165,22 +223,27 @@ class DracoMessages {
     if (message.kind() == kDracoStep && !begun_) {
       const double step = message.record<double>();
       if (!(step >= 0)) message.fail();
-      positions_ = indices_ = 0;
+      positions_ = values_ = indices_ = 0;
       begun_ = true;
       return receiver_.begin(done_, step);
     }
     if (!begun_) message.fail();
-    if (message.kind() == kDracoPositions && indices_ == 0) {
+    if (message.kind() == kDracoPositions && values_ == 0 && indices_ == 0) {
       const auto positions = message.records<Point>();
       positions_ += positions.size();
       if (positions_ > max_elements) message.fail();
       receiver_.positions(positions);
-    } else if (message.kind() == kDracoIndices) {
+    } else if (message.kind() == kDracoAttribute && indices_ == 0) {
+      const auto values = message.records<double>();
+      values_ += values.size();
+      if (values_ > max_values()) message.fail();
+      receiver_.attributes(values);
+    } else if (message.kind() == kDracoIndices && values_ == max_values()) {
       const auto indices = message.records<uint32_t>();
       indices_ += indices.size();
       if (indices_ > 3 * max_elements || indices.size() % 3 != 0) message.fail();
       receiver_.indices(indices);
-    } else if (message.kind() == kDracoEnd) {
+    } else if (message.kind() == kDracoEnd && values_ == max_values()) {
       ++done_;
       begun_ = false;
     } else {
@@ -189,11 +252,19 @@ class DracoMessages {
   }
 
  private:
+  // Of all attributes.
+  uint64_t max_values() const {
+    uint64_t values = 0;
+    for (const DracoAttribute& each : sources_[done_].attributes)
+      values += each.components * positions_;
+    return values;
+  }
+
   std::span<const DracoSource> sources_;
   const DracoReceiver& receiver_;
   size_t done_ = 0;
   bool begun_ = false;
-  uint64_t positions_ = 0, indices_ = 0;  // of the mesh that is arriving
+  uint64_t positions_ = 0, values_ = 0, indices_ = 0;  // of the mesh that is arriving
 };
 
 }  // namespace

@@ -4,7 +4,8 @@
 // triangles. Only the positions of an indexed primitive are held (mesh_writer.h), and small
 // primitives that nodes share; indices, unindexed positions and instances pass through small
 // windows. Animations are applied at a time (gltf_animation.h), skins and morph targets
-// (gltf_pose.h), except to Draco primitives, whose triangles are counted as undeformed. Points and
+// (gltf_pose.h), except to Draco primitives, whose triangles are counted as undeformed and whose
+// materials are not cut out. Points and
 // lines are skipped. A Draco primitive that also has plain data is read from the plain data, which
 // is exact.
 #include <algorithm>
@@ -105,10 +106,10 @@ class GltfReader {
       const GltfPaint* const paint = paint_of(primitive, material, cut);
       if (paint == nullptr && options_.images != nullptr && attributes.has("COLOR_0"))
         left_out_.add(Omission::kVertexColours);
-      out_.material(name_of_material, colour_of(primitive, material));
+      out_.material(name_of_material, colour_of(material));
       InstanceStream instances(node, world, &buffers_);
       if (cut != nullptr || paint != nullptr) {
-        draw_textured(cut, paint, node, primitive, mode, world, &instances);
+        draw_textured(cut, paint, node, value, mode, world, &instances);
       } else if (pose_.moves(node, primitive) && !draco_.holds(primitive)) {
         draw_posed(node, primitive, mode, world, &instances);
       } else if (const KeptPrimitive* kept = kept_.find(value)) {
@@ -139,14 +140,16 @@ class GltfReader {
       without_texture->cut.image = options_.alpha->opaque();
     }
     if (!cut) return nullptr;
-    return has_texture_points(cut->use, primitive) ? &*cut : &*without_texture;
+    const bool has_points = has_texture_points(cut->use, primitive.object("attributes"));
+    return has_points ? &*cut : &*without_texture;
   }
 
   // What colours the points of the primitive; null: it has one colour, or these are not wanted.
   const GltfPaint* paint_of(const JsonObject& primitive, const std::optional<JsonObject>& material,
                             const GltfCutOut* cut) {
-    if (options_.paints == nullptr || draco_.holds(primitive)) return nullptr;
-    const bool has_colours = primitive.object("attributes").has("COLOR_0");
+    if (options_.paints == nullptr) return nullptr;
+    const JsonObject attributes = draco_.attributes_of(primitive);
+    const bool has_colours = attributes.has("COLOR_0");
     if (!material) return has_colours ? &white_ : nullptr;
     const uint64_t index = primitive.whole_number("material");
     const double threshold = cut != nullptr ? cut->cut.threshold : 0;
@@ -158,7 +161,7 @@ class GltfReader {
                        svdag::paint_of(document_, *material, threshold, &buffers_, options_.paints))
               .first;
     const GltfPaint& textured = found->second;
-    if (has_texture_points(textured.use, primitive)) return &textured;
+    if (has_texture_points(textured.use, attributes)) return &textured;
     if (!has_colours) return nullptr;
     auto plain = plain_paints_.find(index);
     if (plain == plain_paints_.end()) {
@@ -169,11 +172,9 @@ class GltfReader {
   }
 
   // The one colour of a primitive, if it is wanted.
-  std::optional<Colour> colour_of(const JsonObject& primitive,
-                                  const std::optional<JsonObject>& material) {
+  std::optional<Colour> colour_of(const std::optional<JsonObject>& material) {
     if (options_.images == nullptr || !material) return {};
-    const bool by_points = options_.paints != nullptr && !draco_.holds(primitive);
-    return by_points ? factor_colour(*material) : colour_of(*material);
+    return options_.paints != nullptr ? factor_colour(*material) : mean_colour(*material);
   }
 
   // Of a mesh that is baked whole.
@@ -187,7 +188,7 @@ class GltfReader {
   }
 
   // The base colour of the material, times the mean of its texture.
-  std::optional<Colour> colour_of(const JsonObject& material) {
+  std::optional<Colour> mean_colour(const JsonObject& material) {
     if (!material.has("pbrMetallicRoughness")) return {};
     const JsonObject pbr = material.object("pbrMetallicRoughness");
     std::optional<ImageMean> mean;
@@ -280,43 +281,53 @@ class GltfReader {
   // Draws a primitive whose material is cut, or whose points have colours of their own: all of its
   // vertices are held. `cut` or `paint` may be null.
   void draw_textured(const GltfCutOut* cut, const GltfPaint* paint, const JsonObject& node,
-                     const JsonObject& primitive, uint64_t mode, const Affine& world,
+                     const nlohmann::json& key, uint64_t mode, const Affine& world,
                      InstanceStream* instances) {
-    const Accessor positions = positions_of(primitive);
+    const JsonObject primitive(key, document_.file->path());
+    const DracoPrimitive* const draco = draco_.find(key);
+    if (draco != nullptr) mode = kTriangles;
+    const Accessor positions = draco != nullptr ? draco->positions : positions_of(primitive);
+    const auto attribute = [&](const std::string& name, const char* type) {
+      return draco != nullptr
+                 ? draco->attributes.at(name)
+                 : buffers_.accessor(primitive.object("attributes").whole_number(name.c_str()),
+                                     type);
+    };
     const uint64_t count = positions.count();
     const auto memory =
         options_.budget->reserve(count * sizeof(Point), "vertices of a textured mesh");
     MemoryBudget::Reservation texture_memory, colour_memory;
     const std::vector<TexturePoint> texture =
-        texture_of(cut, paint, primitive, count, &texture_memory);
+        texture_of(cut, paint, draco_.attributes_of(primitive), attribute, count, &texture_memory);
     std::vector<VertexColour> colours;
-    if (paint != nullptr)
-      colours =
-          vertex_colours(primitive, count, &buffers_, options_.budget, &colour_memory, &left_out_);
+    if (paint != nullptr && draco_.attributes_of(primitive).has("COLOR_0"))
+      colours = vertex_colours(attribute("COLOR_0", GltfBuffers::kAnyType), count, options_.budget,
+                               &colour_memory, &left_out_);
     std::vector<Point> points;
     points.reserve(size_t(count));
-    pose_.visit_vertices(node, primitive, positions, world,
-                         [&](const Point& p) { points.push_back(p); });
+    const auto add_point = [&](const Point& p) { points.push_back(p); };
+    draco != nullptr ? visit_stored(positions, add_point)
+                     : pose_.visit_vertices(node, primitive, positions, world, add_point);
+    const bool is_posed = draco == nullptr && GltfPose::is_skinned(node, primitive);
     InstanceStream once;
-    InstanceStream* const places = GltfPose::is_skinned(node, primitive) ? &once : instances;
+    InstanceStream* const places = is_posed ? &once : instances;
     for (uint64_t i = 0; i < places->count(); ++i) {
       const Affine to_world = places->next();
       out_.begin_soup();
-      out_.place(to_world, 0);
+      out_.place(to_world, draco != nullptr ? draco->step : 0);
       out_.cut_out(cut != nullptr ? &cut->cut : nullptr);
       out_.paint(paint != nullptr ? &paint->paint : nullptr);
       const auto add = [&](uint64_t a, uint64_t b, uint64_t c) {
         const Triangle t{{to_world(points[a]), to_world(points[b]), to_world(points[c])}};
         const TextureCorners corners =
             texture.empty() ? TextureCorners() : TextureCorners{texture[a], texture[b], texture[c]};
-        if (paint == nullptr) return out_.add_cut(t, corners);
-        if (!std::ranges::all_of(corners, is_placeable)) left_out_.add(Omission::kTexturePoints);
-        out_.add_painted(
+        if (paint == nullptr) return out_.add_textured(t, corners);
+        out_.add_textured(
             t, corners,
             colours.empty() ? kWhiteCorners : CornerColours{colours[a], colours[b], colours[c]});
       };
-      if (primitive.has("indices")) {
-        const Accessor indices = indices_of(primitive, mode);
+      if (draco != nullptr || primitive.has("indices")) {
+        const Accessor indices = draco != nullptr ? draco->indices : indices_of(primitive, mode);
         IndexStream corners(indices, count);
         assemble(mode, indices.count(), corners, add);
       } else {
@@ -330,16 +341,29 @@ class GltfReader {
     }
   }
 
-  // In the texture of `cut` and `paint`, which is one; empty without.
+  // In the texture of `cut` and `paint`, which is one; empty without. `attribute`: returns the
+  // accessor of an attribute, of the type.
+  template <class Attribute>
   std::vector<TexturePoint> texture_of(const GltfCutOut* cut, const GltfPaint* paint,
-                                       const JsonObject& primitive, uint64_t count,
-                                       MemoryBudget::Reservation* memory) {
-    if (cut != nullptr && has_texture_points(cut->use, primitive))
-      return texture_points(cut->use, cut->cut.image->width(), cut->cut.image->height(), primitive,
-                            count, false, &buffers_, options_.budget, memory);
+                                       const JsonObject& attributes, const Attribute& attribute,
+                                       uint64_t count, MemoryBudget::Reservation* memory) {
+    const auto points_in = [&](const GltfTextureUse& use, const auto& image, bool anywhere) {
+      return texture_points(use, image.width(), image.height(),
+                            attribute(texture_attribute(use), "VEC2"), count, anywhere,
+                            options_.budget, memory);
+    };
+    if (cut != nullptr && has_texture_points(cut->use, attributes))
+      return points_in(cut->use, *cut->cut.image, false);
     if (paint == nullptr || !paint->paint.image) return {};
-    return texture_points(paint->use, paint->paint.image->width(), paint->paint.image->height(),
-                          primitive, count, true, &buffers_, options_.budget, memory);
+    return points_in(paint->use, *paint->paint.image, true);
+  }
+
+  template <class Visit>
+  static void visit_stored(const Accessor& positions, const Visit& visit) {
+    ElementStream stream(positions);
+    std::array<Point, 1024> window;
+    while (const size_t n = stream.read(as_numbers(window)))
+      std::for_each_n(window.begin(), n, visit);
   }
 
   void draw_soup(const Accessor& positions, uint64_t mode, InstanceStream* instances) {
@@ -369,13 +393,7 @@ class GltfReader {
     const bool single = positions.base.type == ComponentType::kFloat;
     draw(
         single ? MeshWriter::Precision::kSingle : MeshWriter::Precision::kDouble, positions.count(),
-        step, instances,
-        [&] {
-          ElementStream stream(positions);
-          std::array<Point, 1024> window;
-          while (const size_t n = stream.read(as_numbers(window)))
-            std::for_each_n(window.begin(), n, add_vertex());
-        },
+        step, instances, [&] { visit_stored(positions, add_vertex()); },
         [&] {
           IndexStream corners(indices, positions.count());
           assemble(mode, indices.count(), corners, add_triangle());

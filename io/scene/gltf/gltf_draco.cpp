@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "io/scene/decoders/draco.h"
 #include "streaming/error.h"
 
 namespace svdag {
@@ -26,14 +25,32 @@ bool DracoPrimitives::holds(const JsonObject& primitive) const {
          (primitive.has("indices") && !has_data(primitive.whole_number("indices")));
 }
 
+JsonObject DracoPrimitives::attributes_of(const JsonObject& primitive) const {
+  if (!holds(primitive)) return primitive.object("attributes");
+  return primitive.extension(kDraco)->object("attributes");
+}
+
 DracoPrimitives::Packed DracoPrimitives::pack(const nlohmann::json& value) {
   const JsonObject primitive(value, document_.file->path());
   const JsonObject draco = *primitive.extension(kDraco);
-  const uint64_t accessor = primitive.object("attributes").whole_number("POSITION");
-  Packed packed{&value, {}, {}, 0, false};
+  const JsonObject accessors = primitive.object("attributes"), ids = draco.object("attributes");
+  const auto accessor_of = [&](const char* name) {
+    return document_.element("accessors", accessors.whole_number(name));
+  };
+  Packed packed{&value, {}, {}, {}, {}};
   packed.bytes = buffers_.view_bytes(draco.whole_number("bufferView"), &packed.memory);
-  packed.position_id = draco.object("attributes").whole_number("POSITION");
-  packed.normalized = document_.element("accessors", accessor).flag("normalized");
+  packed.source = {
+      packed.bytes, ids.whole_number("POSITION"), accessor_of("POSITION").flag("normalized"), {}};
+  if (options_.paints == nullptr) return packed;
+  for (const std::string& name : ids.names()) {
+    const bool is_colour = name == "COLOR_0";
+    if ((!is_colour && !name.starts_with("TEXCOORD_")) || !accessors.has(name.c_str())) continue;
+    const uint64_t components = is_colour && accessor_of("COLOR_0").text("type") == "VEC4" ? 4
+                                : is_colour                                                ? 3
+                                                                                           : 2;
+    packed.names.push_back(name);
+    packed.source.attributes.push_back({ids.whole_number(name.c_str()), components});
+  }
   return packed;
 }
 
@@ -66,10 +83,9 @@ std::vector<DracoPrimitives::Packed> DracoPrimitives::pack_from(const nlohmann::
 void DracoPrimitives::unpack(const std::vector<Packed>& packed) {
   if (!file_) file_ = create_unpacked(document_.file->path(), options_.spill);
   std::vector<DracoSource> sources;
-  for (const Packed& each : packed)
-    sources.push_back({each.bytes, each.position_id, each.normalized});
+  for (const Packed& each : packed) sources.push_back(each.source);
   struct Place {
-    uint64_t positions, indices, end;
+    uint64_t positions, attributes, indices, end;
     double step;
   };
   std::vector<Place> places;  // in the file
@@ -81,19 +97,23 @@ void DracoPrimitives::unpack(const std::vector<Packed>& packed) {
   const DracoReceiver receiver = {
       [&](size_t source, double step) {
         places.resize(source);
-        places.push_back({file_bytes_, file_bytes_, file_bytes_, step});
+        places.push_back({file_bytes_, file_bytes_, file_bytes_, file_bytes_, step});
       },
       [&](std::span<const Point> points) {
         append(std::as_bytes(points));
-        places.back().indices = file_bytes_;
+        places.back().attributes = places.back().indices = file_bytes_;
       },
-      [&](std::span<const uint32_t> indices) { append(std::as_bytes(indices)); }};
+      [&](std::span<const uint32_t> indices) { append(std::as_bytes(indices)); },
+      [&](std::span<const double> values) {
+        append(std::as_bytes(values));
+        places.back().indices = file_bytes_;
+      }};
   const size_t done =
       decode_draco(sources, document_.file->path(), *options_.budget, options_.sandbox, receiver);
   for (size_t i = 0; i < done; ++i) {
     const Place& at = places[i];
     Unpacked& made = unpacked_[packed[i].key];
-    made.positions = Blob::in_file(&*file_, at.positions, at.indices - at.positions);
+    made.positions = Blob::in_file(&*file_, at.positions, at.attributes - at.positions);
     made.indices = Blob::in_file(&*file_, at.indices, at.end - at.indices);
     made.primitive.step = at.step;
     const std::string* path = &document_.file->path();
@@ -108,6 +128,19 @@ void DracoPrimitives::unpack(const std::vector<Packed>& packed) {
         {},
         {},
         path};
+    made.attributes = Blob::in_file(&*file_, at.attributes, at.indices - at.attributes);
+    uint64_t begin = 0;
+    for (size_t k = 0; k < packed[i].names.size(); ++k) {
+      const uint64_t components = packed[i].source.attributes[k].components;
+      const ElementArray values{&made.attributes,
+                                begin,
+                                components * sizeof(double),
+                                made.primitive.positions.count(),
+                                ComponentType::kDouble,
+                                uint32_t(components)};
+      begin += values.count * values.stride;
+      made.primitive.attributes[packed[i].names[k]] = {values, {}, {}, path};
+    }
   }
 }
 

@@ -5,18 +5,21 @@
 // is needed: to start a child costs as much as to decode some thousand triangles.
 #pragma once
 
-#include <list>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
+#include "io/scene/decoders/draco.h"
 #include "io/scene/gltf/gltf_buffers.h"
 
 namespace svdag {
 
 struct DracoPrimitive {
   Accessor positions, indices;
+  std::map<std::string, Accessor> attributes;  // that colour, if colours of points are wanted
   double step = 0;  // distance of the quantised positions, 0 if they are not
 };
 
@@ -30,10 +33,12 @@ class DracoPrimitives {
   const DracoPrimitive* find(const nlohmann::json& primitive);
   // Whether find() would decode it.
   bool holds(const JsonObject& primitive) const;
+  // The attributes of a primitive: if find() would decode it, those that it would find.
+  JsonObject attributes_of(const JsonObject& primitive) const;
 
  private:
   struct Unpacked {
-    Blob positions, indices;
+    Blob positions, attributes, indices;
     DracoPrimitive primitive;
   };
   // The compressed bytes of a primitive.
@@ -41,8 +46,8 @@ class DracoPrimitives {
     const nlohmann::json* key;
     std::vector<std::byte> bytes;
     MemoryBudget::Reservation memory;
-    uint64_t position_id;
-    bool normalized;
+    DracoSource source;
+    std::vector<std::string> names;  // of the attributes
   };
 
   bool has_data(uint64_t accessor) const;

@@ -42,20 +42,16 @@ Colour factor_colour(const JsonObject& material) {
   return LinearColour().times({factor[0], factor[1], factor[2]});
 }
 
-std::vector<VertexColour> vertex_colours(const JsonObject& primitive, uint64_t vertices,
-                                         GltfBuffers* buffers, MemoryBudget* budget,
-                                         MemoryBudget::Reservation* memory, LeftOut* left_out) {
+std::vector<VertexColour> vertex_colours(const Accessor& accessor, uint64_t vertices,
+                                         MemoryBudget* budget, MemoryBudget::Reservation* memory,
+                                         LeftOut* left_out) {
   std::vector<VertexColour> colours;
-  const JsonObject attributes = primitive.object("attributes");
-  if (!attributes.has("COLOR_0")) return colours;
-  const Accessor accessor =
-      buffers->accessor(attributes.whole_number("COLOR_0"), GltfBuffers::kAnyType);
   const size_t components = accessor.base.components;
   if (components != 3 && components != 4)
-    fail_input(primitive.path(), "has colours of vertices that are neither VEC3 nor VEC4");
+    fail_input(*accessor.path, "has colours of vertices that are neither VEC3 nor VEC4");
   if (accessor.count() != vertices)
-    fail_input(primitive.path(), "has a primitive with " + std::to_string(accessor.count()) +
-                                     " colours for " + std::to_string(vertices) + " vertices");
+    fail_input(*accessor.path, "has a primitive with " + std::to_string(accessor.count()) +
+                                   " colours for " + std::to_string(vertices) + " vertices");
   *memory = budget->reserve(vertices * sizeof(VertexColour), "colours of vertices");
   colours.reserve(size_t(vertices));
   ElementStream stream(accessor);

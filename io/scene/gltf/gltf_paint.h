@@ -21,10 +21,10 @@ GltfPaint paint_of(const GltfDocument& document, const JsonObject& material, dou
 // The base colour's factor, as a colour: that of a material without texture.
 Colour factor_colour(const JsonObject& material);
 
-// COLOR_0 of all vertices of `primitive`, reserved in *memory; values beyond 1 are clamped and
-// counted. Empty without.
-std::vector<VertexColour> vertex_colours(const JsonObject& primitive, uint64_t vertices,
-                                         GltfBuffers* buffers, MemoryBudget* budget,
-                                         MemoryBudget::Reservation* memory, LeftOut* left_out);
+// COLOR_0 of all vertices of a primitive, reserved in *memory; values beyond 1 are clamped and
+// counted.
+std::vector<VertexColour> vertex_colours(const Accessor& accessor, uint64_t vertices,
+                                         MemoryBudget* budget, MemoryBudget::Reservation* memory,
+                                         LeftOut* left_out);
 
 }  // namespace svdag

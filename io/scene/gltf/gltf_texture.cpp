@@ -42,10 +42,6 @@ void set_transform(const JsonObject& info, GltfTextureUse* use) {
   use->set = transform->whole_number("texCoord", *use->set);
 }
 
-std::string key_of(const GltfTextureUse& use) {
-  return "TEXCOORD_" + std::to_string(*use.set);
-}
-
 }  // namespace
 
 GltfBaseColour base_colour_of(const JsonObject& material) {
@@ -67,30 +63,32 @@ std::optional<GltfTextureUse> texture_use_of(const GltfDocument& document,
   return use;
 }
 
-bool has_texture_points(const GltfTextureUse& use, const JsonObject& primitive) {
-  return use.set && primitive.object("attributes").has(key_of(use).c_str());
+std::string texture_attribute(const GltfTextureUse& use) {
+  return "TEXCOORD_" + std::to_string(*use.set);
+}
+
+bool has_texture_points(const GltfTextureUse& use, const JsonObject& attributes) {
+  return use.set && attributes.has(texture_attribute(use).c_str());
 }
 
 std::vector<TexturePoint> texture_points(const GltfTextureUse& use, int64_t width, int64_t height,
-                                         const JsonObject& primitive, uint64_t vertices,
-                                         bool anywhere, GltfBuffers* buffers, MemoryBudget* budget,
+                                         const Accessor& coordinates, uint64_t vertices,
+                                         bool anywhere, MemoryBudget* budget,
                                          MemoryBudget::Reservation* memory) {
   *memory = budget->reserve(vertices * sizeof(TexturePoint), "texture coordinates");
   std::vector<TexturePoint> points;
   points.reserve(size_t(vertices));
-  const JsonObject attributes = primitive.object("attributes");
-  const Accessor accessor = buffers->accessor(attributes.whole_number(key_of(use).c_str()), "VEC2");
-  if (accessor.count() != vertices)
-    fail_input(primitive.path(), "has a primitive with " + std::to_string(accessor.count()) +
-                                     " texture coordinates for " + std::to_string(vertices) +
-                                     " vertices");
-  ElementStream stream(accessor);
+  if (coordinates.count() != vertices)
+    fail_input(*coordinates.path, "has a primitive with " + std::to_string(coordinates.count()) +
+                                      " texture coordinates for " + std::to_string(vertices) +
+                                      " vertices");
+  ElementStream stream(coordinates);
   std::array<double, 2048> window;
   while (const size_t n = stream.read(std::span<double>(window))) {
     for (size_t i = 0; i < n; ++i) {
       const TexturePoint p = use.place(window[2 * i], window[2 * i + 1], width, height);
       if (!anywhere && !is_placeable(p))
-        fail_input(primitive.path(),
+        fail_input(*coordinates.path,
                    "has a texture coordinate that is NaN, infinite or beyond 2^40 texels "
                    "(--no-cutouts bakes materials whole)");
       points.push_back(p);

@@ -42,14 +42,16 @@ struct GltfTextureUse {
 std::optional<GltfTextureUse> texture_use_of(const GltfDocument& document,
                                              const GltfBaseColour& base);
 
-// Whether `primitive` has the coordinates that `use` names.
-bool has_texture_points(const GltfTextureUse& use, const JsonObject& primitive);
-// The texture coordinates of all vertices of `primitive`, which has them, in texels of an image of
-// this size, reserved in *memory. Unless they may be anywhere, those that are not placeable are an
-// Error (kBadInput), with the way out of a cut-out.
+// The name of the attribute with the coordinates of `use`, which has a set.
+std::string texture_attribute(const GltfTextureUse& use);
+// Whether a primitive with these attributes has them.
+bool has_texture_points(const GltfTextureUse& use, const JsonObject& attributes);
+// The texture coordinates of all vertices of a primitive, in texels of an image of this size,
+// reserved in *memory. Unless they may be anywhere, those that are not placeable are an Error
+// (kBadInput), with the way out of a cut-out.
 std::vector<TexturePoint> texture_points(const GltfTextureUse& use, int64_t width, int64_t height,
-                                         const JsonObject& primitive, uint64_t vertices,
-                                         bool anywhere, GltfBuffers* buffers, MemoryBudget* budget,
+                                         const Accessor& coordinates, uint64_t vertices,
+                                         bool anywhere, MemoryBudget* budget,
                                          MemoryBudget::Reservation* memory);
 
 }  // namespace svdag

@@ -19,6 +19,7 @@ enum class Omission : uint8_t {
   kMaterialFiles,
   kVertexColours,
   kBrightColours,
+  kColourIndices,
   kTexturePoints,
   kUnweighted,
   kChannels,
@@ -49,7 +50,8 @@ constexpr OmissionKind kOmissions[] = {
      "lines name .mtl files outside the scene's folder (--allow-outside reads them) or after 64 "
      "KiB"},
     {"vertex_colours", "meshes have colours of vertices, which are not read"},
-    {"bright_colours", "vertices have a colour beyond 1, which is read as 1"},
+    {"bright_colours", "vertices or faces have a colour beyond 1, which is read as 1"},
+    {"colour_indices", "faces have an index of a colour map, which is not followed"},
     {"texture_points",
      "triangles have the colour of their material alone: a texture coordinate is NaN, infinite or "
      "beyond 2^40 texels"},

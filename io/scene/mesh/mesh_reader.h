@@ -9,6 +9,7 @@
 // Readers pass non-finite coordinates on unchanged; io/scene/scene.cpp decides about them.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -170,19 +171,20 @@ class BatchWriter {
   void material(std::string_view name, std::optional<Colour> colour = {});
   void quantisation(double step);
   void mirrored(bool mirrored);
-  // Of the triangles from here on, which add_cut() adds; null: none of them is cut.
+  // Of the triangles from here on: what cuts them out, and what colours them; null: nothing does.
+  // If either is set, the functions below add them.
   void cut_out(const CutOut* cut);
-  void add_cut(const Triangle& t, const TextureCorners& texture) {
+  void paint(const Paint* paint);
+  void add_textured(const Triangle& t, const TextureCorners& texture,
+                    const CornerColours& colours = kWhiteCorners) {
     texture_.push_back(texture);
+    if (paint_ != nullptr) corner_colours_.push_back(colours);
+    if (paint_ != nullptr && paint_->image && !std::ranges::all_of(texture, is_placeable))
+      ++unplaced_;
     add(t.v[0], t.v[1], t.v[2]);
   }
-  // What colours the triangles from here on, which add_painted() adds; null: nothing does. They may
-  // be cut, too.
-  void paint(const Paint* paint);
-  void add_painted(const Triangle& t, const TextureCorners& texture, const CornerColours& colours) {
-    corner_colours_.push_back(colours);
-    add_cut(t, texture);
-  }
+  // Triangles so far with a corner that is nowhere in the texture that colours them.
+  uint64_t unplaced() const { return unplaced_; }
   // Writes each corner to its place: a Triangle that is built first and then copied is read back in
   // pieces of another size than it was written in, which stalls on the store buffer.
   void add(const Point& a, const Point& b, const Point& c) {
@@ -211,6 +213,7 @@ class BatchWriter {
   std::vector<TextureCorners> texture_;        // of batch_, if it is cut or painted
   std::vector<CornerColours> corner_colours_;  // of batch_, if it is painted
   std::unique_ptr<Triangle[]> batch_;
+  uint64_t unplaced_ = 0;
   size_t size_ = 0, room_ = kFirst;  // triangles in batch_, and its capacity
 };
 

@@ -51,6 +51,26 @@ class CodeReader {
   const std::byte *here_ = nullptr, *end_ = nullptr;
 };
 
+// Null, or the address of `given` in `all`, each once: a recording may outlive the reader.
+template <class Use>
+const Use* own_copy(const Use* given, std::deque<Use>* all) {
+  if (given == nullptr) return nullptr;
+  const auto found = std::ranges::find(*all, *given);
+  return found != all->end() ? &*found : &all->emplace_back(*given);
+}
+
+// Its number from 1 on; 0: null.
+template <class Use>
+uint64_t number_in(const std::deque<Use>& all, const Use* own) {
+  return own == nullptr ? 0 : 1 + uint64_t(std::ranges::find(all, *own) - all.begin());
+}
+
+template <class Use>
+const Use* with_number(const std::deque<Use>& all, uint64_t number) {
+  if (number > all.size()) fail_changed();
+  return number == 0 ? nullptr : &all[size_t(number - 1)];
+}
+
 LeftOut read_once(MeshReader reader, const File& file, const ReadOptions& options,
                   const TriangleSink& sink) {
   MeshWriter out(options, file.path(), sink);
@@ -62,6 +82,7 @@ LeftOut read_once(MeshReader reader, const File& file, const ReadOptions& option
     throw;
   }
   out.finish();
+  left_out.add(Omission::kTexturePoints, out.unplaced());
   return left_out;
 }
 
@@ -98,22 +119,26 @@ void MeshWriter::material(std::string_view name, std::optional<Colour> colour) {
 }
 
 void MeshWriter::cut_out(const CutOut* cut) {
-  const CutOut* own = nullptr;  // a recording may outlive the reader
-  if (cut != nullptr) {
-    const auto found = std::ranges::find(cuts_, *cut);
-    own = found != cuts_.end() ? &*found : &cuts_.emplace_back(*cut);
-  }
+  const CutOut* const own = own_copy(cut, &cuts_);
   if (!recording_) return out_.cut_out(own);
   if (marks_) return;
   put_code(kCut);
-  put_code(own == nullptr ? 0 : 1 + uint64_t(std::ranges::find(cuts_, *own) - cuts_.begin()));
+  put_code(number_in(cuts_, own));
 }
 
-void MeshWriter::record_texture(const TexturePoint& texture) {
+void MeshWriter::paint(const Paint* paint) {
+  const Paint* const own = own_copy(paint, &paints_);
+  if (!recording_) return out_.paint(own == nullptr && !colours_.empty() ? &by_vertices_ : own);
+  if (marks_) return;
+  put_code(kPaint);
+  put_code(number_in(paints_, own));
+}
+
+void MeshWriter::record_texture(const Paintable& corner) {
   if (!recording_) start_recording();
   if (marks_) return;
   put_code(kTexture);
-  put_bytes(std::as_bytes(std::span(&texture, 1)));
+  put_bytes(std::as_bytes(std::span(&corner, 1)));
 }
 
 void MeshWriter::end_mesh() {
@@ -254,12 +279,12 @@ void MeshWriter::replay() {
   windows.rewind();
   CodeReader codes(codes_stream_, options_.budget);
   std::array<Point, 3> first;
-  TextureCorners first_texture{};
-  TexturePoint texture{};
+  std::array<Paintable, 3> first_paintable;
+  Paintable paintable;
   bool is_textured = false;  // the polygon
   uint64_t corners = 0;
-  const auto add_corner = [&](const Point& p, const TexturePoint& at) {
-    is_textured ? triangulator_.corner(p, at) : triangulator_.corner(p);
+  const auto add_corner = [&](const Point& p, const Paintable& at) {
+    is_textured ? triangulator_.corner(p, at.texture, at.colour) : triangulator_.corner(p);
   };
   while (!codes.at_end()) {
     const uint64_t code = codes.code();
@@ -268,27 +293,31 @@ void MeshWriter::replay() {
       const Point p = is_placed_ ? to_world_(as_stored) : as_stored;
       if (corners < 3) {
         first[corners] = p;
-        first_texture[corners] = texture;
+        first_paintable[corners] = paintable;
       } else {
-        for (size_t i = 0; corners == 3 && i < 3; ++i) add_corner(first[i], first_texture[i]);
-        add_corner(p, texture);
+        for (size_t i = 0; corners == 3 && i < 3; ++i) add_corner(first[i], first_paintable[i]);
+        add_corner(p, paintable);
       }
       ++corners;
     } else if (code == kEnd) {
-      if (corners == 3 && is_textured) out_.add_cut({first}, first_texture);
+      if (corners == 3 && is_textured) {
+        const auto& [a, b, c] = first_paintable;
+        out_.add_textured({first}, {a.texture, b.texture, c.texture},
+                          {a.colour, b.colour, c.colour});
+      }
       if (corners == 3 && !is_textured) out_.add(first[0], first[1], first[2]);
       if (corners > 3) triangulator_.finish(out_);
       corners = 0;
       is_textured = false;
     } else if (code == kTexture) {
-      std::array<uint8_t, sizeof texture> bytes;
+      std::array<uint8_t, sizeof paintable> bytes;
       for (uint8_t& each : bytes) each = codes.byte();
-      std::memcpy(&texture, bytes.data(), sizeof texture);
+      std::memcpy(&paintable, bytes.data(), sizeof paintable);
       is_textured = true;
     } else if (code == kCut) {
-      const uint64_t number = codes.code();
-      if (number > cuts_.size()) fail_changed();
-      out_.cut_out(number == 0 ? nullptr : &cuts_[size_t(number - 1)]);
+      out_.cut_out(with_number(cuts_, codes.code()));
+    } else if (code == kPaint) {
+      out_.paint(with_number(paints_, codes.code()));
     } else {
       std::array<uint8_t, 4> more;
       for (uint8_t& each : more) each = codes.byte();

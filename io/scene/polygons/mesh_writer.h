@@ -6,7 +6,7 @@
 // windows on disk (io/scene/mesh/vertex_windows.h): the corners are recorded, and when the mesh
 // ends a join brings their positions, polygon by polygon in the order of the file. The sink gets
 // the same triangles either way. The recording holds for each corner the number of its window, in a
-// cut-out polygon its texture coordinate, and between polygons the names that change: so a file is
+// polygon with a texture its coordinate, and between polygons the names that change: so a file is
 // read once.
 // Rejected: no recording, but running the reader's loop over the faces again (each reader must be
 // written for positions that it cannot see, and text is parsed twice).
@@ -100,8 +100,8 @@ class MeshWriter {
   void triangle(uint64_t a, uint64_t b, uint64_t c) {
     if (points_ != nullptr) return out_.add(points_[a], points_[b], points_[c]);
     if (!colours_.empty())
-      return out_.add_painted({{stored(a), stored(b), stored(c)}}, TextureCorners(),
-                              {colours_[a], colours_[b], colours_[c]});
+      return out_.add_textured({{stored(a), stored(b), stored(c)}}, TextureCorners(),
+                               {colours_[a], colours_[b], colours_[c]});
     if (!positions_->spilled()) return out_.add(stored(a), stored(b), stored(c));
     record(a);
     record(b);
@@ -114,12 +114,15 @@ class MeshWriter {
     if (!positions_->spilled()) return triangulator_.corner(stored(i));
     record(i);
   }
-  // The same, of a polygon with all of its corners in the texture of cut_out().
+  // The same, of a polygon with all of its corners in the texture of cut_out() or paint().
   void corner(uint64_t i, const TexturePoint& texture) {
-    if (points_ != nullptr) return triangulator_.corner(points_[i], texture);
-    if (!colours_.empty()) return triangulator_.corner(stored(i), texture, colours_[i]);
-    if (!positions_->spilled()) return triangulator_.corner(stored(i), texture);
-    record_texture(texture);
+    corner(i, texture, colours_.empty() ? kWhiteCorners[0] : colours_[i]);
+  }
+  // The same with the colour of the corner.
+  void corner(uint64_t i, const TexturePoint& texture, const VertexColour& colour) {
+    if (points_ != nullptr) return triangulator_.corner(points_[i], texture, colour);
+    if (!positions_->spilled()) return triangulator_.corner(stored(i), texture, colour);
+    record_texture({texture, colour});
     record(i);
   }
   // Fewer than three corners give no triangle.
@@ -130,16 +133,16 @@ class MeshWriter {
   // A triangle without vertices, after begin_soup().
   void add(const Point& a, const Point& b, const Point& c) { out_.add(a, b, c); }
   void begin_soup() { end_mesh(); }
-  // Of the polygons with texture from here on: which material cuts them out; null: none.
+  // Of the polygons with texture from here on: what cuts them out, and what colours their points;
+  // null: nothing, or the colours of the vertices.
   void cut_out(const CutOut* cut);
+  void paint(const Paint* paint);
   // Polygons of the mesh may be cut out, which the summary counts. Call it after begin().
   void count_cut_outs() { is_counted_ = true; }
   // To a soup.
-  void add_cut(const Triangle& t, const TextureCorners& texture) { out_.add_cut(t, texture); }
-  // Of a soup: what colours its points (BatchWriter).
-  void paint(const Paint* paint) { out_.paint(paint); }
-  void add_painted(const Triangle& t, const TextureCorners& texture, const CornerColours& colours) {
-    out_.add_painted(t, texture, colours);
+  void add_textured(const Triangle& t, const TextureCorners& texture,
+                    const CornerColours& colours = kWhiteCorners) {
+    out_.add_textured(t, texture, colours);
   }
 
   // Passes everything on.
@@ -147,6 +150,7 @@ class MeshWriter {
     draw_recorded();
     out_.flush();
   }
+  uint64_t unplaced() const { return out_.unplaced(); }
   // After an Error of the reader: passes on the polygons that were recorded before it.
   void finish_broken();
 
@@ -178,7 +182,13 @@ class MeshWriter {
     ++corners_;
   }
   void record_end();
-  void record_texture(const TexturePoint& texture);
+  // Of a corner.
+  struct Paintable {
+    TexturePoint texture{0, 0};
+    VertexColour colour{};
+    uint16_t padding = 0;
+  };
+  void record_texture(const Paintable& corner);
   void record_name(uint64_t kind, std::string_view name, std::array<uint8_t, 4> more);
   void put_code(uint64_t code);
   void put_bytes(std::span<const std::byte> bytes);
@@ -188,9 +198,9 @@ class MeshWriter {
   void replay();
 
   // A recording: for each corner kFirstWindow + the number of its window, kEnd after each polygon;
-  // kMesh and kMaterial with a name; kCut with the number of a material, 0: none; kTexture with the
-  // place in a texture of the corner that follows.
-  enum Code : uint64_t { kMesh, kMaterial, kEnd, kCut, kTexture, kFirstWindow };
+  // kMesh and kMaterial with a name; kCut and kPaint with the number of one, 0: none; kTexture with
+  // the place in a texture and the colour of the corner that follows.
+  enum Code : uint64_t { kMesh, kMaterial, kEnd, kCut, kPaint, kTexture, kFirstWindow };
 
   const ReadOptions& options_;
   Triangulator triangulator_;
@@ -204,9 +214,10 @@ class MeshWriter {
   MemoryBudget::Reservation colour_memory_;
   ReadOptions in_memory_ = {};  // options without space to spill, for vertices with colours
   const Paint by_vertices_ = {};
-  std::deque<CutOut> cuts_;  // the materials that cut_out() got, each once
-  bool is_placed_ = false;   // place() was called
-  bool is_counted_ = false;  // the summary counts its triangles as undeformed or quantised
+  std::deque<CutOut> cuts_;   // that cut_out() got, each once
+  std::deque<Paint> paints_;  // that paint() got, each once
+  bool is_placed_ = false;    // place() was called
+  bool is_counted_ = false;   // the summary counts its triangles as undeformed or quantised
 
   // Of spilled positions.
   bool recording_ = false;

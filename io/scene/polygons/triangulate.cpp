@@ -73,8 +73,8 @@ void Triangulator::emit(size_t a, size_t b, size_t c, BatchWriter& writer) const
   const Triangle triangle{{corners_[a], corners_[b], corners_[c]}};
   TextureCorners texture{};
   if (!texture_.empty()) texture = {texture_[a], texture_[b], texture_[c]};
-  if (colours_.empty()) return writer.add_cut(triangle, texture);
-  writer.add_painted(triangle, texture, {colours_[a], colours_[b], colours_[c]});
+  if (colours_.empty()) return writer.add_textured(triangle, texture);
+  writer.add_textured(triangle, texture, {colours_[a], colours_[b], colours_[c]});
 }
 
 void Triangulator::fan(BatchWriter& writer) const {

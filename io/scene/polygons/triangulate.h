@@ -55,16 +55,11 @@ class Triangulator {
     corner(p);
     colours_.push_back(colour);
   }
-  // The same, of a polygon whose corners are all in a texture that is cut out.
-  void corner(const Point& p, const TexturePoint& texture) {
-    corner(p);
+  // The same, of a polygon whose corners are all in a texture.
+  void corner(const Point& p, const TexturePoint& texture, const VertexColour& colour) {
+    corner(p, colour);
     if (texture_.capacity() < corners_.capacity()) grow_texture();
     texture_.push_back(texture);
-  }
-  // The same with both.
-  void corner(const Point& p, const TexturePoint& texture, const VertexColour& colour) {
-    corner(p, texture);
-    colours_.push_back(colour);
   }
   // Passes the triangles to `writer` and starts the next polygon; fewer than 3 corners give none.
   // One that takes too many steps is an Error (kBadInput); outlines take some hundreds per corner.

@@ -7,10 +7,17 @@
 //
 // The three axes of the file are turned to x right, y up, z front; a left-handed file is a mirror
 // image. Coordinates keep the unit of the file. Animation is not evaluated.
+//
+// If the colours of points are wanted: a texture replaces the colour of its material, as a
+// connected property does in FBX, and is multiplied by the first set of colours of vertices, which
+// are sRGB. Only textures in the file are read. Rejected: files beside it; all programs that hash
+// the inputs would have to decode the scene to learn their names.
 #include <ufbx.h>
 
+#include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "io/affine.h"
 #include "io/scene/readers/named_mesh.h"
@@ -50,23 +57,79 @@ Affine turned_axes(const ufbx_coordinate_axes& axes) {
   return parse_up(kNames[axes.up]);
 }
 
-// The base or diffuse colour, which is sRGB. A material with a texture has no colour, since a
-// factor without the mean is meaningless.
+const ufbx_material_map& base_of(const ufbx_material& material) {
+  return material.features.pbr.enabled ? material.pbr.base_color : material.fbx.diffuse_color;
+}
+
+// The base or diffuse colour, which is sRGB.
 std::optional<Colour> colour_of(const ufbx_material& material) {
   const bool is_pbr = material.features.pbr.enabled;
-  const ufbx_material_map& colour = is_pbr ? material.pbr.base_color : material.fbx.diffuse_color;
+  const ufbx_material_map& colour = base_of(material);
   const ufbx_material_map& factor = is_pbr ? material.pbr.base_factor : material.fbx.diffuse_factor;
-  if (!colour.has_value || colour.texture != nullptr) return {};
+  if (!colour.has_value) return {};
   const double scale = factor.has_value ? factor.value_real : 1;
   const ufbx_vec3 c = colour.value_vec3;
   return Colour{colour_code(scale * c.x), colour_code(scale * c.y), colour_code(scale * c.z)};
 }
 
+// Where the corners of a mesh are in the texture of a material, and their colours; null: nowhere.
+struct FbxSurface {
+  const ufbx_texture* texture = nullptr;
+  const ufbx_vertex_vec2* place = nullptr;
+  const ufbx_vertex_vec4* colour = nullptr;
+
+  bool empty() const { return texture == nullptr && colour == nullptr; }
+  PaintedCorner corner(size_t i) const {
+    PaintedCorner corner;
+    if (texture != nullptr) {
+      const ufbx_vec2 uv = ufbx_get_vertex_vec2(place, i);
+      Point p(uv.x, uv.y, 0);
+      if (texture->has_uv_transform) p = affine_of(texture->uv_to_texture)(p);
+      corner.u = p.x;
+      corner.v = 1 - p.y;
+    }
+    if (colour != nullptr) {
+      const ufbx_vec4 c = ufbx_get_vertex_vec4(colour, i);
+      corner.colour = {light16_of_srgb(c.x), light16_of_srgb(c.y), light16_of_srgb(c.z)};
+    }
+    return corner;
+  }
+};
+
+FbxSurface surface_of(const ufbx_mesh& mesh, const ufbx_material* material) {
+  FbxSurface surface;
+  if (mesh.vertex_color.exists) surface.colour = &mesh.vertex_color;
+  const ufbx_texture* texture = material != nullptr ? base_of(*material).texture : nullptr;
+  if (texture == nullptr || texture->file_textures.count == 0) return surface;
+  texture = texture->file_textures.data[0];  // of layers the lowest
+  if (!texture->has_file || !mesh.vertex_uv.exists) return surface;
+  surface.texture = texture;
+  surface.place = &mesh.vertex_uv;
+  for (const ufbx_uv_set& set : mesh.uv_sets) {
+    if (text_of(set.name) == text_of(surface.texture->uv_set)) surface.place = &set.vertex_uv;
+  }
+  return surface;
+}
+
+Wrap wrap_of(ufbx_wrap_mode mode) {
+  return mode == UFBX_WRAP_CLAMP ? Wrap::kClamp : Wrap::kRepeat;
+}
+
+struct FbxOptions {
+  bool hidden = false;   // also hidden nodes
+  bool painted = false;  // with the colours of points
+};
+
 // Sends the meshes of a scene, node by node.
 class FbxSender {
  public:
-  FbxSender(const ufbx_scene& scene, bool hidden, const std::string& path, NamedMeshSender* out)
-      : axes_(turned_axes(scene.settings.axes)), hidden_(hidden), path_(path), out_(*out) {}
+  FbxSender(const ufbx_scene& scene, const FbxOptions& options, const std::string& path,
+            NamedMeshSender* out)
+      : axes_(turned_axes(scene.settings.axes)),
+        options_(options),
+        path_(path),
+        out_(*out),
+        files_(scene.texture_files) {}
 
   void send(const ufbx_scene& scene) {
     if (scene.settings.unit_meters > 0) out_.unit(scene.settings.unit_meters);
@@ -80,7 +143,7 @@ class FbxSender {
     const bool is_visible = node.visible && (parent_is_visible || !inherits);
     std::string names = parent_names;
     if (!node.is_root) names += (names.empty() ? "" : std::string(1, '\0')) + text_of(node.name);
-    if (is_visible || hidden_) {
+    if (is_visible || options_.hidden) {
       for (ufbx_element* attribute : node.all_attribs) send_attribute(node, *attribute, names);
     } else if (node.mesh != nullptr) {
       left_out_.add(Omission::kHidden);
@@ -114,7 +177,7 @@ class FbxSender {
     LeftOut left_out;
     const bool is_undeformed = mesh.skin_deformers.count > 0 || mesh.blend_deformers.count > 0 ||
                                mesh.cache_deformers.count > 0;
-    if (mesh.vertex_color.exists) left_out.add(Omission::kVertexColours);
+    if (mesh.vertex_color.exists && !options_.painted) left_out.add(Omission::kVertexColours);
     const Affine to_world = compose(axes_, affine_of(node.geometry_to_world));
     out_.begin({left_out, mesh.num_vertices, is_mirror(to_world), is_undeformed}, names);
     for (const ufbx_vec3& p : mesh.vertices) out_.vertex(to_world({p.x, p.y, p.z}));
@@ -124,29 +187,56 @@ class FbxSender {
       if (part.num_faces == 0) continue;
       const ufbx_material* material =
           part.index < materials.count ? materials.data[part.index] : nullptr;
+      const FbxSurface surface = options_.painted ? surface_of(mesh, material) : FbxSurface();
       if (material == nullptr) {
         out_.material("", {});
+      } else if (base_of(*material).texture != nullptr && !options_.painted) {
+        out_.material(text_of(material->name), {});  // a factor without the mean is meaningless
       } else {
         out_.material(text_of(material->name), colour_of(*material));
       }
-      for (const uint32_t face : part.face_indices) send_face(mesh, mesh.faces.data[face]);
+      if (!surface.empty()) send_paint(surface);
+      for (const uint32_t face : part.face_indices) send_face(mesh, mesh.faces.data[face], surface);
     }
     out_.end();
   }
 
-  void send_face(const ufbx_mesh& mesh, const ufbx_face& face) {
+  void send_paint(const FbxSurface& surface) {
+    NamedPaint paint;
+    if (const ufbx_texture* texture = surface.texture) {
+      const auto [sent, is_new] =
+          images_.try_emplace(texture->file_index, uint32_t(images_.size() + 1));
+      if (is_new) {
+        const ufbx_texture_file& file = files_.data[texture->file_index];
+        out_.image(text_of(file.relative_filename),
+                   {static_cast<const std::byte*>(file.content.data), file.content.size});
+      }
+      paint.image = sent->second;
+      paint.wrap_u = wrap_of(texture->wrap_u);
+      paint.wrap_v = wrap_of(texture->wrap_v);
+    }
+    out_.paint(paint);
+  }
+
+  void send_face(const ufbx_mesh& mesh, const ufbx_face& face, const FbxSurface& surface) {
     const std::span corners(mesh.vertex_indices.data + face.index_begin, face.num_indices);
     for (const uint32_t corner : corners) {
       if (corner >= mesh.num_vertices)
         fail_input(path_, "has a face with a corner that does not exist");
     }
-    if (!corners.empty()) out_.polygon(corners);
+    painted_.clear();
+    for (size_t i = 0; i < corners.size() && !surface.empty(); ++i)
+      painted_.push_back(surface.corner(face.index_begin + i));
+    if (!corners.empty()) out_.polygon(corners, painted_);
   }
 
   const Affine axes_;
-  const bool hidden_;
+  const FbxOptions options_;
   const std::string& path_;
   NamedMeshSender& out_;
+  const ufbx_texture_file_list& files_;
+  std::map<uint32_t, uint32_t> images_;  // that were sent: their numbers by index of files_
+  std::vector<PaintedCorner> painted_;   // of the current face
   LeftOut left_out_;
 };
 
@@ -171,13 +261,13 @@ void check_blocks_end(std::span<const std::byte> bytes, const std::string& path)
                          " blocks have no end");
 }
 
-void decode_fbx(std::span<const std::byte> bytes, const std::string& path, bool hidden,
+void decode_fbx(std::span<const std::byte> bytes, const std::string& path, const FbxOptions& wanted,
                 NamedMeshSender* out) {
   check_blocks_end(bytes, path);
   ufbx_load_opts options = {};
   options.file_format = UFBX_FILE_FORMAT_FBX;
   options.ignore_animation = true;
-  options.ignore_embedded = true;
+  options.ignore_embedded = !wanted.painted;
   options.skip_skin_vertices = true;
   options.node_depth_limit = kMaxFbxDepth;
   // Indices of normals and the like may be broken; those of corners are checked.
@@ -192,7 +282,7 @@ void decode_fbx(std::span<const std::byte> bytes, const std::string& path, bool 
     if (warning.type == UFBX_WARNING_TRUNCATED_ARRAY)
       fail_input(path, "is not a valid FBX file: " + text_of(warning.description));
   }
-  FbxSender(*scene, hidden, path, out).send(*scene);  // the child exits: the scene is not freed
+  FbxSender(*scene, wanted, path, out).send(*scene);  // the child exits: the scene is not freed
 }
 
 }  // namespace
@@ -201,7 +291,7 @@ LeftOut read_fbx(const File& file, const ReadOptions& options, MeshWriter* out) 
   return read_named_meshes(
       file, "FBX", options, out,
       [&](std::span<const std::byte> bytes, const std::string& path, NamedMeshSender* sender) {
-        decode_fbx(bytes, path, options.hidden, sender);
+        decode_fbx(bytes, path, {options.hidden, options.paints != nullptr}, sender);
       });
 }
 

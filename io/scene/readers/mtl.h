@@ -9,18 +9,28 @@
 #include <vector>
 
 #include "io/colour.h"
+#include "io/scene/cutouts/cut_out.h"
 #include "io/scene/decoders/image.h"
 #include "io/scene/mesh/name_filter.h"
 #include "streaming/file/file.h"
 
 namespace svdag {
 
+// A coordinate is scaled, then moved, as three.js and Blender do; v points up, from the last row of
+// the image.
 struct MtlTexture {
   std::string path;
   bool is_outside = false;                       // of the folder of the .obj file, and not allowed
-  double scale[2] = {1, 1}, offset[2] = {0, 0};  // -s, -o: a coordinate is scaled, then moved
+  double scale[2] = {1, 1}, offset[2] = {0, 0};  // -s, -o
   bool clamp = false;                            // -clamp on
-  std::string unknown;  // an option that changes the alpha, but is not followed; empty: none
+  std::string unknown;  // an option that changes the texels, but is not followed; empty: none
+
+  // In texels of an image of this size; u, v: of vt.
+  TexturePoint place(double u, double v, int64_t width, int64_t height) const {
+    return {(u * scale[0] + offset[0]) * double(width),
+            (1 - (v * scale[1] + offset[1])) * double(height)};
+  }
+  Wrap wrap() const { return clamp ? Wrap::kClamp : Wrap::kRepeat; }
 };
 
 struct MtlMaterial {

@@ -2,7 +2,8 @@
 // the protocol of FBX, 3MF, COLLADA and 3DS.
 //
 // Of each mesh: a NamedMeshHead, the names of its nodes from the root on, its vertices; then for
-// each material its name and colour, and the polygons that have it.
+// each material its name and colour, and the polygons that have it. If colours of points are
+// wanted, a NamedPaint may follow the material, after the image that it names first.
 #pragma once
 
 #include <functional>
@@ -31,7 +32,13 @@ class NamedMeshSender {
   void vertex(const Point& p) { mesh_.vertex(p); }
   // Of the polygons from here on.
   void material(const std::string& name, const std::optional<Colour>& colour);
-  void polygon(std::span<const uint32_t> corners) { mesh_.polygon(corners); }
+  // The next image, number 1 first: a PNG or JPEG file in the scene.
+  void image(const std::string& name, std::span<const std::byte> bytes);
+  // After material(): its polygons have PaintedCorners.
+  void paint(const NamedPaint& paint);
+  void polygon(std::span<const uint32_t> corners, std::span<const PaintedCorner> paint = {}) {
+    mesh_.polygon(corners, paint);
+  }
   void end() { mesh_.finish(); }
 
   // What belongs to no mesh.

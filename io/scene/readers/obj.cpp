@@ -2,13 +2,14 @@
 //
 // Vertices have colours if the first one has (`v x y z r g b`, in sRGB by custom).
 // A face may use the vertices that precede it, counted from 1, or backwards from -1. Normals are
-// skipped, and texture coordinates if no material is cut out (obj_cut_out.h); free-form curves and
-// surfaces, lines and points are counted. Unknown statements are an Error: what they define would
-// be missing. Zero bytes may follow the last line (ZBrush), but not hide lines. A face belongs to
-// the last `o`, to all names of the last `g` and to the last `usemtl`: it is selected if none of
-// these is excluded and one of them is included.
+// skipped, and texture coordinates if no material is cut out (obj_cut_out.h) or coloured by a
+// texture (obj_paint.h); free-form curves and surfaces, lines and points are counted. Unknown
+// statements are an Error: what they define would be missing. Zero bytes may follow the last line
+// (ZBrush), but not hide lines. A face belongs to the last `o`, to all names of the last `g` and to
+// the last `usemtl`: it is selected if none of these is excluded and one of them is included.
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -19,6 +20,7 @@
 #include "io/scene/polygons/mesh_writer.h"
 #include "io/scene/readers/mtl.h"
 #include "io/scene/readers/obj_cut_out.h"
+#include "io/scene/readers/obj_paint.h"
 #include "io/scene/readers/obj_plain.h"
 #include "io/scene/readers/text_scan.h"
 
@@ -62,10 +64,28 @@ class TextureCoordinates {
   const TexturePoint& operator[](uint64_t i) const { return points_[size_t(i)]; }
 
  private:
-  static constexpr const char* kPurpose = "texture coordinates of cut-outs";
+  static constexpr const char* kPurpose = "texture coordinates";
 
   MemoryBudget::Reservation memory_;
   std::vector<TexturePoint> points_;
+};
+
+constexpr TexturePoint kNowhere = {std::numeric_limits<double>::quiet_NaN(), 0};
+
+// What a material needs texture coordinates for; null: nothing.
+struct TexturedSurface {
+  const ObjCutOut* cut = nullptr;
+  const ObjPaint* paint = nullptr;
+
+  bool empty() const { return cut == nullptr && paint == nullptr; }
+  // In the texture that colours or, without colours, cuts: both have one set of coordinates.
+  TexturePoint place(const TexturePoint& vt) const {
+    if (paint != nullptr)
+      return paint->use->place(vt.u, vt.v, paint->paint.image->width(),
+                               paint->paint.image->height());
+    return cut->use->place(vt.u, vt.v, cut->cut.image->width(), cut->cut.image->height());
+  }
+  bool operator==(const TexturedSurface&) const = default;
 };
 
 class ObjReader {
@@ -80,10 +100,14 @@ class ObjReader {
     if (options.images != nullptr || options.alpha != nullptr)
       materials_ = read_mtl(file, {options.budget, options.allow_outside, options.images});
     out_.begin(MeshWriter::Precision::kDouble, file.size());
-    if (options.alpha == nullptr) return;
-    for (const auto& [name, material] : materials_.by_name)
-      is_textured_ |= cutting_texture(name, material, *options.names) != nullptr;
-    if (is_textured_) out_.count_cut_outs();
+    bool is_cut = false;
+    for (const auto& [name, material] : materials_.by_name) {
+      if (options.alpha != nullptr)
+        is_cut |= cutting_texture(name, material, *options.names) != nullptr;
+      is_textured_ |= options.paints != nullptr && material.texture;
+    }
+    is_textured_ |= is_cut;
+    if (is_cut) out_.count_cut_outs();
   }
 
   LeftOut read() {
@@ -105,7 +129,7 @@ class ObjReader {
       Point p;
       stop = read_plain_vertex(text.substr(2), &p);
       if (stop != nullptr) out_.vertex(p);
-    } else if (text.starts_with("f ") && wanted_ && cut_ == nullptr) {
+    } else if (text.starts_with("f ") && wanted_ && surface_.empty()) {
       PlainFace face;
       stop = read_plain_face(text.substr(2), out_.vertices(), &face);
       if (stop != nullptr) add(face);
@@ -166,19 +190,13 @@ class ObjReader {
     for (int a = 0; a < 3; ++a) p[a] = scanner_.number();
     if (options_.paints == nullptr) return out_.vertex(p);
     std::array<double, 4> more;  // red, green and blue, after a weight if there are four
-    size_t n = 0;
-    const auto has_number = [&] {
-      return !scanner_.at_line_end() &&
-             std::string_view("+-.0123456789").find(scanner_.visible().front()) !=
-                 std::string::npos;
-    };
-    while (n < more.size() && has_number()) more[n++] = scanner_.number();
+    const size_t n = scanner_.numbers(more);
     if (out_.vertices() == 0) {
       is_coloured_ = n >= 3;
       if (is_coloured_) out_.begin_coloured(MeshWriter::Precision::kDouble, file_.size());
     }
     if (!is_coloured_) return out_.vertex(p);
-    VertexColour colour = {kWhite16, kWhite16, kWhite16};
+    VertexColour colour = kWhiteCorners[0];
     for (size_t c = 0; c < 3 && n >= 3; ++c) colour[c] = light16_of_srgb(more[n - 3 + c]);
     left_out_.add(Omission::kBrightColours,
                   n >= 3 && std::max({more[n - 3], more[n - 2], more[n - 1]}) > 1);
@@ -191,8 +209,8 @@ class ObjReader {
     texture_.add(p);
   }
 
-  // Of a material that is cut out: whole if it has no texture coordinates.
-  void read_cut_face() {
+  // Of a material with a texture: whole and plain if the face has no texture coordinates.
+  void read_textured_face() {
     bool is_first = true, has_texture = false;
     while (!scanner_.at_line_end()) {
       const uint64_t index = vertex(scanner_.integer('/'));
@@ -205,12 +223,13 @@ class ObjReader {
       }
       if (std::exchange(is_first, false)) {
         has_texture = place.has_value();
-        if (!has_texture && !std::exchange(is_untextured_, true)) left_out_.add(Omission::kCutOuts);
-        cut_by(has_texture ? cut_ : nullptr);
+        if (!has_texture && surface_.cut != nullptr && !std::exchange(is_untextured_, true))
+          left_out_.add(Omission::kCutOuts);
+        draw_with(has_texture ? surface_ : TexturedSurface());
       }
-      if (place.has_value() != has_texture)
+      if (place.has_value() != has_texture && surface_.cut != nullptr)
         scanner_.fail("has a face with texture coordinates at some of its corners only");
-      place ? out_.corner(index, *place) : out_.corner(index);
+      has_texture ? out_.corner(index, place.value_or(kNowhere)) : out_.corner(index);
     }
     out_.end_polygon();
   }
@@ -220,14 +239,16 @@ class ObjReader {
     scanner_.skip_while([&](char c) { return c == '/' && !std::exchange(skipped, true); });
   }
 
+  // What decides no voxel may be broken.
   TexturePoint texture_point(int64_t index) {
     const uint64_t count = texture_.size();
     const uint64_t i = index < 0 ? count + uint64_t(index) : uint64_t(index) - 1;
+    if (i >= count && surface_.cut == nullptr) return kNowhere;
     if (i >= count)
       scanner_.fail("has a face with texture coordinate " + std::to_string(index) + ", but " +
                     std::to_string(count) + " precede it");
-    const TexturePoint p = cut_->place(texture_[i].u, texture_[i].v);
-    if (!is_placeable(p))
+    const TexturePoint p = surface_.place(texture_[i]);
+    if (surface_.cut != nullptr && !is_placeable(p))
       scanner_.fail(
           "has a texture coordinate of a cut-out that is NaN, infinite or beyond 2^40 texels "
           "(--no-cutouts bakes materials whole)");
@@ -236,7 +257,7 @@ class ObjReader {
 
   void read_face() {
     if (!wanted_) return;
-    if (cut_ != nullptr) return read_cut_face();
+    if (!surface_.empty()) return read_textured_face();
     while (!scanner_.at_line_end()) {
       out_.corner(vertex(scanner_.integer('/')));
       if (!scanner_.at_word_end()) skip_references();
@@ -284,18 +305,32 @@ class ObjReader {
     mesh_ = mesh;
     const auto material = materials_.by_name.find(material_);
     const bool is_known = wanted_ && material != materials_.by_name.end();
-    out_.material(material_, is_known && options_.images != nullptr
-                                 ? colour_of(material->second, options_.images)
-                                 : std::nullopt);
-    cut_ = is_known && options_.alpha != nullptr ? cut_of(material->second) : nullptr;
-    if (cut_ == nullptr) cut_by(nullptr);
+    out_.material(material_, is_known && options_.images != nullptr ? colour_of(material->second)
+                                                                    : std::nullopt);
+    surface_ = is_known ? surface_of(material->second) : TexturedSurface();
+    if (surface_.empty()) draw_with({});
     is_untextured_ = false;
   }
 
-  void cut_by(const ObjCutOut* cut) {
-    if (cut == drawn_) return;
-    drawn_ = cut;
-    out_.cut_out(cut == nullptr ? nullptr : &cut->cut);
+  // Of all faces, or, if their points have colours of their own, of those without a texture.
+  std::optional<Colour> colour_of(const MtlMaterial& material) const {
+    return options_.paints != nullptr ? material.diffuse
+                                      : svdag::colour_of(material, options_.images);
+  }
+
+  // Of material_.
+  TexturedSurface surface_of(const MtlMaterial& material) {
+    TexturedSurface surface;
+    if (options_.alpha != nullptr) surface.cut = cut_of(material);
+    if (options_.paints != nullptr) surface.paint = paint_of(material, surface.cut);
+    return surface;
+  }
+
+  void draw_with(const TexturedSurface& surface) {
+    if (surface == drawn_) return;
+    drawn_ = surface;
+    out_.cut_out(surface.cut == nullptr ? nullptr : &surface.cut->cut);
+    out_.paint(surface.paint == nullptr ? nullptr : &surface.paint->paint);
   }
 
   // What cuts material_ out; null: it is whole.
@@ -310,16 +345,23 @@ class ObjReader {
     return cut ? &*cut : nullptr;
   }
 
+  // The texture that colours material_; null: none.
+  const ObjPaint* paint_of(const MtlMaterial& material, const ObjCutOut* cut) {
+    const auto [at, is_new] = paints_.try_emplace(material_);
+    if (is_new) at->second = svdag::paint_of(material, cut, options_.paints);
+    return at->second ? &*at->second : nullptr;
+  }
+
   const ReadOptions& options_;
   const File& file_;
   MtlMaterials materials_;
   ByteStream stream_;
   TextScanner scanner_;
-  bool is_textured_ = false;  // a material of the .mtl files is cut out
+  bool is_textured_ = false;  // a material of the .mtl files needs texture coordinates
   TextureCoordinates texture_;
-  std::map<std::string, std::optional<ObjCutOut>> cuts_;  // by material; none: it is whole
-  const ObjCutOut* cut_ = nullptr;                        // of material_; null: it is whole
-  const ObjCutOut* drawn_ = nullptr;                      // that out_ has
+  std::map<std::string, std::optional<ObjCutOut>> cuts_;   // by material; none: it is whole
+  std::map<std::string, std::optional<ObjPaint>> paints_;  // by material; none: no texture
+  TexturedSurface surface_, drawn_;                        // of material_; that out_ has
   bool is_untextured_ = false;  // a face since choose() lacks its texture coordinates
   MeshWriter& out_;
   // What earlier lines define for later ones.

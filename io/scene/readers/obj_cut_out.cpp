@@ -1,16 +1,10 @@
 #include "io/scene/readers/obj_cut_out.h"
 
-#include <algorithm>
 #include <limits>
 
 #include "streaming/error.h"
 
 namespace svdag {
-
-TexturePoint ObjCutOut::place(double u, double v) const {
-  return {(u * scale[0] + offset[0]) * double(cut.image->width()),
-          (1 - (v * scale[1] + offset[1])) * double(cut.image->height())};
-}
 
 std::optional<ObjCutOut> cut_out_of(const std::string& name, const MtlMaterial& material,
                                     const NameFilter& names, const std::string& obj,
@@ -22,11 +16,10 @@ std::optional<ObjCutOut> cut_out_of(const std::string& name, const MtlMaterial& 
                         texture->unknown +
                         ", which svdag does not follow (--no-cutouts bakes materials whole)");
   ObjCutOut result{};
-  std::ranges::copy(texture->scale, result.scale);
-  std::ranges::copy(texture->offset, result.offset);
+  result.use = texture;
   constexpr double kNever = std::numeric_limits<double>::infinity();
   result.cut.threshold = material.dissolve > 0 ? 127.5 / material.dissolve : kNever;
-  if (texture->clamp) result.cut.wrap_u = result.cut.wrap_v = Wrap::kClamp;
+  result.cut.wrap_u = result.cut.wrap_v = texture->wrap();
   const auto read = [&](MemoryBudget::Reservation* memory) {
     if (texture->is_outside)
       fail_input(texture->path, "is outside the folder of the scene: --allow-outside reads it");

@@ -2,9 +2,8 @@
 // that --cutout names.
 //
 // A point is opaque if alpha times d reaches 0.5. The alpha of a map_d is that of its image, or its
-// luminance if it has none; of a map_Kd, that of its image. A coordinate is scaled (-s), then moved
-// (-o), as three.js and Blender do; v points up, from the last row of the image. Between texels
-// alpha is bilinear, as the format says nothing.
+// luminance if it has none; of a map_Kd, that of its image. Between texels alpha is bilinear, as
+// the format says nothing.
 #pragma once
 
 #include <optional>
@@ -18,10 +17,7 @@ namespace svdag {
 
 struct ObjCutOut {
   CutOut cut;
-  double scale[2], offset[2];
-
-  // In texels of the image; u, v: of vt.
-  TexturePoint place(double u, double v) const;
+  const MtlTexture* use = nullptr;
 };
 
 // Nothing: the material is whole. An image that cannot be read, or an option of it that would

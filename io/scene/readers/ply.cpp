@@ -15,7 +15,7 @@ namespace {
 template <class Values>
 class PlyBody {
  public:
-  // `coloured`: the colours of vertices are wanted.
+  // `coloured`: the colours of vertices are wanted, or if they have none those of faces.
   PlyBody(const File& file, const PlyHeader& header, bool coloured, MeshWriter* out,
           LeftOut* left_out)
       : file_(file), header_(header), is_coloured_(coloured), out_(*out), left_out_(*left_out) {}
@@ -40,7 +40,7 @@ class PlyBody {
  private:
   // All elements except the vertices.
   void read_faces() {
-    PlyFaces<Values> faces(&out_);
+    PlyFaces<Values> faces(is_coloured_ && !has_vertex_colours_, &out_, &left_out_);
     const auto& elements = header_.elements;
     const size_t earlier = places_.size() - 1;
     for (size_t i = 0; i < earlier; ++i) {
@@ -52,7 +52,7 @@ class PlyBody {
   }
 
   void read_vertices(Values& values, const PlyElement& element) {
-    // For every property the coordinate that it is, or 3.
+    // For every property the coordinate that it is; 3: none; 4 to 6: red, green and blue.
     std::vector<int> coordinate(element.properties.size(), 3);
     bool single = true;
     for (int a = 0; a < 3; ++a) {
@@ -68,7 +68,10 @@ class PlyBody {
     // A float property holds floats; text declared as a short integer may hold any number.
     if (header_.format == PlyFormat::kAscii) single = single && all_float(element, coordinate);
     const auto precision = single ? MeshWriter::Precision::kSingle : MeshWriter::Precision::kDouble;
-    if (is_coloured_ && find_colours(element, &coordinate)) {
+    const auto colours = is_coloured_ ? colours_of(element) : std::nullopt;
+    if (colours) {
+      for (size_t c = 0; c < 3; ++c) coordinate[(*colours)[c]] = int(4 + c);
+      has_vertex_colours_ = true;
       out_.begin_coloured(precision, element.count);
       return read_coloured(values, element, coordinate);
     }
@@ -89,29 +92,6 @@ class PlyBody {
       }
       out_.vertex({read[0], read[1], read[2]});
     }
-  }
-
-  // Makes red, green and blue the coordinates 4 to 6; false if a vertex has none.
-  static bool find_colours(const PlyElement& element, std::vector<int>* coordinate) {
-    for (const std::string before : {"", "diffuse_"}) {
-      std::vector<int> with = *coordinate;
-      int found = 0;
-      for (const char* const name : {"red", "green", "blue"}) {
-        const auto index = element.find(before + name);
-        if (!index || element.properties[*index].is_list()) break;
-        with[*index] = 4 + found++;
-      }
-      if (found < 3) continue;
-      *coordinate = with;
-      return true;
-    }
-    return false;
-  }
-
-  // 1 is the most that a value of sRGB may be, or of whole numbers the most of 16 bits if the type
-  // has 16, else of 8.
-  static double share_of_range(double value, PlyType type) {
-    return value / (!is_integer(type) ? 1 : size_of(type) == 2 ? 65535 : 255);
   }
 
   void read_coloured(Values& values, const PlyElement& element,
@@ -180,7 +160,7 @@ class PlyBody {
 
   const File& file_;
   const PlyHeader& header_;
-  bool is_coloured_;
+  bool is_coloured_, has_vertex_colours_ = false;
   MeshWriter& out_;
   LeftOut& left_out_;
   std::vector<PlyPlace> places_;  // of the elements before the vertices, and of what follows those

@@ -35,7 +35,9 @@ inline std::optional<TriangleRow> triangle_row(const PlyElement& element, size_t
 template <class Values>
 class PlyFaces {
  public:
-  explicit PlyFaces(MeshWriter* out) : out_(*out) {}
+  // `coloured`: their colours are wanted, which are rounded to 8 bits.
+  PlyFaces(bool coloured, MeshWriter* out, LeftOut* left_out)
+      : is_coloured_(coloured), out_(*out), left_out_(*left_out) {}
 
   // Rows of "face" are polygons, rows of "tristrips" are strips; everything else is skipped.
   void read(Values& values, const PlyElement& element) {
@@ -49,7 +51,9 @@ class PlyFaces {
       values.fail("has faces without a list of integers \"vertex_indices\"");
     }
     check_count(values, element);
-    const auto plain = strips ? std::nullopt : triangle_row(element, *indices);
+    const auto colours = is_coloured_ && !strips ? colours_of(element) : std::nullopt;
+    const auto plain = strips || colours ? std::nullopt : triangle_row(element, *indices);
+    std::array<double, 3> colour{};
     for (uint64_t row = 0; row < element.count; ++row) {
       if constexpr (std::is_same_v<Values, PlyBinaryValues>) {
         if (plain && values.order() == std::endian::native)
@@ -58,14 +62,16 @@ class PlyFaces {
       }
       for (size_t i = 0; i < element.properties.size(); ++i) {
         const PlyProperty& property = element.properties[i];
-        if (i != *indices) {
-          skip_property(values, property);
-        } else if (strips) {
-          read_strip(values, property);
+        if (i == *indices) {
+          strips ? read_strip(values, property) : read_corners(values, property);
+        } else if (const size_t channel = channel_of(i, colours); channel < 3) {
+          colour[channel] = share_of_range(values.number(property.type), property.type);
         } else {
-          read_polygon(values, property);
+          skip_property(values, property);
         }
       }
+      if (colours) set_colour(colour);
+      if (!strips) out_.end_polygon();
     }
   }
 
@@ -101,10 +107,22 @@ class PlyFaces {
     return uint64_t(index);
   }
 
-  void read_polygon(Values& values, const PlyProperty& list) {
+  // 3: the property is not of the colour.
+  static size_t channel_of(size_t property, const std::optional<std::array<size_t, 3>>& colours) {
+    return colours ? size_t(std::ranges::find(*colours, property) - colours->begin()) : 3;
+  }
+
+  // Of the polygon whose corners were passed on.
+  void set_colour(const std::array<double, 3>& c) {
+    const Colour colour{colour_code(c[0]), colour_code(c[1]), colour_code(c[2])};
+    left_out_.add(Omission::kBrightColours, std::ranges::max(c) > 1);
+    if (colour != colour_) out_.material("", colour);
+    colour_ = colour;
+  }
+
+  void read_corners(Values& values, const PlyProperty& list) {
     for (uint64_t left = list_length(values, list); left > 0; --left)
       out_.corner(vertex(values, values.integer(list.type)));
-    out_.end_polygon();
   }
 
   // Each index makes a triangle with the two before it; -1 starts a new strip. Repeated indices
@@ -128,7 +146,10 @@ class PlyFaces {
     }
   }
 
+  bool is_coloured_;
   MeshWriter& out_;
+  LeftOut& left_out_;
+  std::optional<Colour> colour_;  // that out_ has
 };
 
 }  // namespace svdag

@@ -2,11 +2,13 @@
 //
 // Both classes have the same interface, so that the reader is written once as a template: number,
 // integer, skip, the position to return to, and the checks of counts against the remaining bytes.
-// Functions for both follow: lists, and rows to skip.
+// Functions for both follow: lists, colours, and rows to skip.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <type_traits>
 
@@ -119,6 +121,27 @@ class PlyTextValues {
   ByteStream stream_;
   TextScanner scanner_;
 };
+
+// The properties of an element that are its colour: red, green and blue.
+inline std::optional<std::array<size_t, 3>> colours_of(const PlyElement& element) {
+  for (const std::string before : {"", "diffuse_"}) {
+    std::array<size_t, 3> colours;
+    size_t found = 0;
+    for (const char* const name : {"red", "green", "blue"}) {
+      const auto index = element.find(before + name);
+      if (!index || element.properties[*index].is_list()) break;
+      colours[found++] = *index;
+    }
+    if (found == 3) return colours;
+  }
+  return {};
+}
+
+// 1 is the most that a value of sRGB may be, or of whole numbers the most of 16 bits if the type
+// has 16, else of 8.
+inline double share_of_range(double value, PlyType type) {
+  return value / (!is_integer(type) ? 1 : size_of(type) == 2 ? 65535 : 255);
+}
 
 // A count that the rest of the file cannot hold is rejected before it is used.
 template <class Values>

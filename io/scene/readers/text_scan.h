@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -87,6 +88,14 @@ class TextScanner {
   // The next word of this line as a number; anything else fails.
   double number() { return decimal<double>(); }
   float number32() { return decimal<float>(); }
+  // As many numbers as follow in this line, at most those that `out` has room for.
+  size_t numbers(std::span<double> out) {
+    size_t n = 0;
+    while (n < out.size() && !at_line_end() &&
+           std::string_view("+-.0123456789").find(*here_) != std::string_view::npos)
+      out[n++] = number();
+    return n;
+  }
   // As number(), for integers; `stop` may end the word too and is not consumed.
   int64_t integer(char stop = '\0') {
     skip_blanks();

@@ -3,12 +3,14 @@
 // The child unpacks and parses the parts that the build refers to, each once, and holds their
 // objects; it sends one mesh per instance. An object is found by its part and its number: numbers
 // are unique in a part only. Coordinates keep the unit of the file; decimals are read as doubles.
-// Beam lattices and slices are counted, not baked; so are items that are not to be printed.
+// Beam lattices and slices are counted, not baked; so are items that are not to be printed, and
+// meshes with composite materials and multiproperties, which have no colour.
 //
 // Rejected: lib3mf 1.8.1, which Debian has (it does not find objects of other parts, "Could not
 // find Object associated to Component": every file of Bambu Studio and OrcaSlicer; it rounds to
 // floats); Assimp 5.2.5 (neither, and it frees thumbnails twice).
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <string>
 
@@ -24,8 +26,10 @@ constexpr int kMaxComponentDepth = 512;  // the walk recurses
 
 class ThreeMfSender {
  public:
-  ThreeMfSender(std::span<const std::byte> bytes, const std::string& path, NamedMeshSender* out)
-      : archive_(bytes, path, "3MF"), path_(path), out_(*out) {}
+  // `painted`: the colours of points are wanted.
+  ThreeMfSender(std::span<const std::byte> bytes, const std::string& path, bool painted,
+                NamedMeshSender* out)
+      : archive_(bytes, path, "3MF"), path_(path), is_painted_(painted), out_(*out) {}
 
   void send() {
     const std::string root = root_name();
@@ -64,7 +68,8 @@ class ThreeMfSender {
   ThreeMfModel& part(const std::string& name) {
     const auto found = parts_.find(name);
     if (found != parts_.end()) return found->second;
-    return parts_.emplace(name, parse_three_mf_model(source_of(name), where(name))).first->second;
+    return parts_.emplace(name, parse_three_mf_model(source_of(name), where(name), is_painted_))
+        .first->second;
   }
 
   void send_reference(const ThreeMfReference& reference, const std::string& parent_part,
@@ -89,18 +94,19 @@ class ThreeMfSender {
     if (object.triangles.empty()) {
       left_out_ += object.left_out;
     } else {
-      send_mesh(object, model, to_world, names);
+      send_mesh(object, name, model, to_world, names);
     }
     for (const ThreeMfReference& component : object.components)
       send_reference(component, name, to_world, names, depth + 1);
     object.is_open = false;
   }
 
-  void send_mesh(const ThreeMfObject& object, const ThreeMfModel& model, const Affine& to_world,
-                 const std::string& names) {
+  void send_mesh(const ThreeMfObject& object, const std::string& part, const ThreeMfModel& model,
+                 const Affine& to_world, const std::string& names) {
     LeftOut left_out = object.left_out;
     const auto has_colours = [&](const ThreeMfProperty& property) {
-      return property.first != 0 && !model.materials.contains(property.first);
+      return property.first != 0 && !model.materials.contains(property.first) &&
+             paint_of(model, property.first) == nullptr;
     };
     if (std::any_of(object.properties.begin(), object.properties.end(), has_colours))
       left_out.add(Omission::kVertexColours);
@@ -114,11 +120,61 @@ class ThreeMfSender {
       });
     for (size_t i = 0; i < order.size(); ++i) {
       const uint32_t property = object.property_of[order[i]];
-      if (i == 0 || property != object.property_of[order[i - 1]])
+      const auto [group, first] = object.properties[property];
+      const ThreeMfPaint* const paint = paint_of(model, group);
+      const uint32_t before = i == 0 ? property : object.property_of[order[i - 1]];
+      const bool is_same =
+          paint != nullptr ? group == object.properties[before].first : property == before;
+      if (i == 0 || !is_same) {
         send_material(model, object.properties[property]);
-      out_.polygon(object.triangles[order[i]]);
+        if (paint != nullptr) send_paint(part, model, *paint);
+      }
+      if (paint == nullptr) {
+        out_.polygon(object.triangles[order[i]]);
+      } else {
+        const auto [second, third] = object.other_corners[order[i]];
+        const std::array<PaintedCorner, 3> corners = {corner_of(*paint, group, first),
+                                                      corner_of(*paint, group, second),
+                                                      corner_of(*paint, group, third)};
+        out_.polygon(object.triangles[order[i]], corners);
+      }
     }
     out_.end();
+  }
+
+  // Null: the group has none, or colours of points are not wanted.
+  static const ThreeMfPaint* paint_of(const ThreeMfModel& model, uint32_t group) {
+    const auto found = model.paints.find(group);
+    return found != model.paints.end() ? &found->second : nullptr;
+  }
+
+  PaintedCorner corner_of(const ThreeMfPaint& paint, uint32_t group, uint32_t index) const {
+    if (index >= paint.corners.size())
+      fail_input(path_, "is not a valid 3MF file: element " + std::to_string(index) + " of group " +
+                            std::to_string(group) + " does not exist");
+    PaintedCorner corner = paint.corners[index];
+    corner.v = 1 - corner.v;
+    return corner;
+  }
+
+  void send_paint(const std::string& part, const ThreeMfModel& model, const ThreeMfPaint& paint) {
+    const auto image = model.images.find(paint.texture);
+    if (paint.texture == 0) return out_.paint({});
+    if (image == model.images.end())
+      fail_input(where(part), "has no texture " + std::to_string(paint.texture));
+    NamedPaint use = image->second.use;
+    const auto [sent, is_new] =
+        images_.try_emplace(image->second.part, uint32_t(images_.size() + 1));
+    if (is_new) send_image(image->second.part);
+    use.image = sent->second;
+    out_.paint(use);
+  }
+
+  // Without bytes, if there is no such part.
+  void send_image(const std::string& name) {
+    std::string bytes;
+    archive_.unpack(name, [&](std::string_view piece, bool) { bytes += piece; });
+    out_.image(name, std::as_bytes(std::span(bytes)));
   }
 
   void send_material(const ThreeMfModel& model, const ThreeMfProperty& property) {
@@ -134,7 +190,9 @@ class ThreeMfSender {
 
   const ZipArchive archive_;
   const std::string& path_;
+  const bool is_painted_;
   NamedMeshSender& out_;
+  std::map<std::string, uint32_t> images_;  // that were sent: their numbers by part
   std::map<std::string, ThreeMfModel> parts_;
   LeftOut left_out_;
 };
@@ -144,8 +202,8 @@ class ThreeMfSender {
 LeftOut read_3mf(const File& file, const ReadOptions& options, MeshWriter* out) {
   return read_named_meshes(
       file, "3MF", options, out,
-      [](std::span<const std::byte> bytes, const std::string& path, NamedMeshSender* sender) {
-        ThreeMfSender(bytes, path, sender).send();
+      [&](std::span<const std::byte> bytes, const std::string& path, NamedMeshSender* sender) {
+        ThreeMfSender(bytes, path, options.paints != nullptr, sender).send();
       });
 }
 

@@ -143,6 +143,8 @@ enum class Element : uint8_t {
   kModel,
   kResources,
   kMaterials,
+  kColours,
+  kCoordinates,
   kObject,
   kMesh,
   kVertices,
@@ -157,6 +159,8 @@ constexpr size_t kMaxXmlDepth = 1024;
 
 class ModelReader : public XmlReader {
  public:
+  explicit ModelReader(bool painted) : is_painted_(painted) {}
+
   ThreeMfModel model;
 
  protected:
@@ -193,6 +197,17 @@ class ModelReader : public XmlReader {
           materials_ = &model.materials[number_of(required("id"))];
           return Element::kMaterials;
         }
+        if (!is_painted_) break;
+        if (name == "colorgroup") return start_paint(Element::kColours);
+        if (name == "texture2dgroup") return start_paint(Element::kCoordinates);
+        if (name == "texture2d") add_image();
+        break;
+      case Element::kColours:
+        if (name == "color") add_colour();
+        break;
+      case Element::kCoordinates:
+        if (name == "tex2coord")
+          paint_->corners.push_back({double_of(required("u")), double_of(required("v"))});
         break;
       case Element::kMaterials:
         if (name == "base") add_material();
@@ -267,16 +282,46 @@ class ModelReader : public XmlReader {
   void add_material() {
     ThreeMfMaterial material;
     if (const char* name = attribute("name")) material.name = name;
-    // "#RRGGBB" or "#RRGGBBAA".
-    const std::string_view text =
-        attribute("displaycolor") == nullptr ? "" : attribute("displaycolor");
-    if (text.size() >= 7 && text[0] == '#') {
-      uint32_t code = 0;
-      const auto [end, error] = std::from_chars(text.data() + 1, text.data() + 7, code, 16);
-      if (error == std::errc() && end == text.data() + 7)
-        material.colour = Colour{uint8_t(code >> 16), uint8_t(code >> 8), uint8_t(code)};
-    }
+    if (const char* text = attribute("displaycolor")) material.colour = colour_of(text);
     materials_->push_back(std::move(material));
+  }
+
+  // "#RRGGBB" or "#RRGGBBAA".
+  static std::optional<Colour> colour_of(std::string_view text) {
+    if (text.size() < 7 || text[0] != '#') return {};
+    uint32_t code = 0;
+    const auto [end, error] = std::from_chars(text.data() + 1, text.data() + 7, code, 16);
+    if (error != std::errc() || end != text.data() + 7) return {};
+    return Colour{uint8_t(code >> 16), uint8_t(code >> 8), uint8_t(code)};
+  }
+
+  Element start_paint(Element element) {
+    paint_ = &model.paints[number_of(required("id"))];
+    if (element == Element::kCoordinates) paint_->texture = number_of(required("texid"));
+    return element;
+  }
+
+  void add_colour() {
+    PaintedCorner corner;
+    if (const auto colour = colour_of(required("color")))
+      corner.colour = {light16_of_code(colour->r), light16_of_code(colour->g),
+                       light16_of_code(colour->b)};
+    paint_->corners.push_back(corner);
+  }
+
+  // Outside of an image whose style is "none" there is nothing; there its border goes on.
+  Wrap wrap_of(const char* name) const {
+    const std::string_view style = attribute(name) == nullptr ? "wrap" : attribute(name);
+    return style == "mirror" ? Wrap::kMirror : style == "wrap" ? Wrap::kRepeat : Wrap::kClamp;
+  }
+
+  void add_image() {
+    ThreeMfImage& image = model.images[number_of(required("id"))];
+    image.part = part_name(required("path"));
+    image.use.wrap_u = wrap_of("tilestyleu");
+    image.use.wrap_v = wrap_of("tilestylev");
+    const char* filter = attribute("filter");
+    image.use.is_nearest = filter != nullptr && std::string_view(filter) == "nearest";
   }
 
   void add_triangle() {
@@ -288,6 +333,11 @@ class ModelReader : public XmlReader {
     object_->triangles.push_back(
         {number_of(required("v1")), number_of(required("v2")), number_of(required("v3"))});
     object_->property_of.push_back(at->second);
+    if (!is_painted_) return;
+    const auto corner = [&](const char* name) {
+      return attribute(name) == nullptr ? property.second : number_of(attribute(name));
+    };
+    object_->other_corners.push_back({corner("p2"), corner("p3")});
   }
 
   void end_mesh() {
@@ -316,9 +366,11 @@ class ModelReader : public XmlReader {
     return reference;
   }
 
+  const bool is_painted_;
   std::vector<Element> open_;
   ThreeMfObject* object_ = nullptr;
   std::vector<ThreeMfMaterial>* materials_ = nullptr;
+  ThreeMfPaint* paint_ = nullptr;
   ThreeMfProperty object_property_;
   std::map<ThreeMfProperty, uint32_t> index_of_;  // in properties of the object
 };
@@ -340,8 +392,8 @@ class RelationshipReader : public XmlReader {
 
 }  // namespace
 
-ThreeMfModel parse_three_mf_model(const XmlSource& source, const std::string& where) {
-  ModelReader reader;
+ThreeMfModel parse_three_mf_model(const XmlSource& source, const std::string& where, bool painted) {
+  ModelReader reader(painted);
   reader.parse(source, where);
   return std::move(reader.model);
 }

@@ -2,103 +2,32 @@
 // factors, colours of vertices and masks, by formulas of the glTF specification.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <functional>
+#include <cstring>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
-#include "builder/colours/colour_pass.h"
-#include "builder/octree/morton.h"
-#include "tests/builder/bakes.h"
+#include "io/scene/decoders/image.h"
+#include "tests/builder/colours/coloured_scene.h"
 #include "tests/shared_scenes.h"
-#include "tests/temp_folder.h"
 
 namespace svdag {
 namespace {
 
-using Light = std::array<double, 3>;
-
-double light(double code) {
-  const double v = code / 255;
-  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
-Light light(double r, double g, double b) {
-  return {light(r), light(g), light(b)};
-}
-double code(double light) {
-  return 255 * (light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055);
-}
-
-class GoldenColours : public testing::Test {
+class GoldenColours : public ColouredScene {
  protected:
-  // Voxels of side 1 / per_unit, with a corner at 0, each with a colour.
-  void colour(const std::string& name, int per_unit) {
-    per_unit_ = per_unit;
-    BuildConfig config = config_for(shared_scene(name), folder_.path() + "/golden.svdag", 0);
-    config.voxel_size = 1.0 / per_unit;
-    config.origin = Point(0);
-    bake(config);
-    const DagFile file = DagFile::open(config.output);
-    k0_ = file.grid().k0;
-    levels_ = file.grid().levels;
-    Workspace workspace(folder_.path() + "/scratch", 256 * kMiB, 1);
-    config.scene.colours = config.scene.paint = true;
-    const Scene scene(config.scene, workspace.budget());
-    SequentialExecutor executor;
-    Progress progress;
-    report_ =
-        colour_cubes(file, scene, {levels_}, &workspace, &executor, &progress,
-                     [&](std::span<const CubeColour> entries) {
-                       for (const CubeColour& e : entries)
-                         colours_[{e.level, e.morton}] = {
-                             e.linear[0] / 65535.0, e.linear[1] / 65535.0, e.linear[2] / 65535.0};
-                     });
+  void colour_shared(const std::string& name, int per_unit) {
+    colour(shared_scene(name), per_unit);
     EXPECT_TRUE(report_.scene.unread_images.empty());
   }
-
-  // The colour of the voxel that holds `p`; null: none is set.
-  const Light* at(const Point& p) const {
-    LatticePoint voxel;
-    for (int a = 0; a < 3; ++a) voxel[a] = int64_t(std::floor(p[a] * per_unit_)) - k0_[a];
-    for (int level = levels_; level >= 0; --level) {
-      const int up = levels_ - level;
-      const auto found =
-          colours_.find({level, morton({voxel.x >> up, voxel.y >> up, voxel.z >> up})});
-      if (found != colours_.end()) return &found->second;
-    }
-    return nullptr;
-  }
-
-  void expect(const Point& p, const Light& expected, double steps) const {
-    const Light* const own = at(p);
-    ASSERT_NE(own, nullptr) << p.x << " " << p.y << " " << p.z;
-    for (size_t c = 0; c < 3; ++c)
-      EXPECT_NEAR(code((*own)[c]), code(expected[c]), steps)
-          << p.x << " " << p.y << " " << p.z << ", channel " << c;
-  }
-
-  // Calls visit(x, y, centre) for the voxels that a unit square at `low` covers, but for those at
-  // its border; x and y: of their centres in the square.
-  void in_square(const Point& low, const std::function<void(double, double, const Point&)>& visit) {
-    const int n = per_unit_;
-    for (int i = 1; i + 1 < n; ++i) {
-      for (int j = 1; j + 1 < n; ++j) {
-        const double x = (i + 0.5) / n, y = (j + 0.5) / n;
-        visit(x, y, low + Point(x, y, 0.5 / n));
-      }
-    }
-  }
-
-  TempFolder folder_;
-  int per_unit_ = 1, levels_ = 0;
-  LatticePoint k0_{0};
-  std::map<std::pair<int, uint64_t>, Light> colours_;  // by level and Morton code
-  ColourPassReport report_;
 };
 
 TEST_F(GoldenColours, ColourChart) {
   SVDAG_NEEDS_SHARED_SCENES();
-  colour("colour_chart.glb", 64);
+  colour_shared("colour_chart.glb", 64);
   std::ifstream in(shared_scene("colour_chart_expected.json"));
   int tested = 0;
   const nlohmann::json expected = nlohmann::json::parse(in);
@@ -144,7 +73,7 @@ Light texel(double u, double v) {
 
 TEST_F(GoldenColours, WrapModes) {
   SVDAG_NEEDS_SHARED_SCENES();
-  colour("wrap_modes.glb", 60);
+  colour_shared("wrap_modes.glb", 60);
   for (int column = 0; column < 3; ++column) {
     for (int row = 0; row < 3; ++row) {
       in_square(Point(1.2 * column, -1.2 * row, 0), [&](double x, double y, const Point& centre) {
@@ -158,7 +87,7 @@ TEST_F(GoldenColours, WrapModes) {
 
 TEST_F(GoldenColours, CoordinateSetsTransformsFactorsAndColoursOfVertices) {
   SVDAG_NEEDS_SHARED_SCENES();
-  colour("texcoord1_transform.glb", 60);
+  colour_shared("texcoord1_transform.glb", 60);
   const auto square = [](int k) { return Point(1.2 * k, 0, 0); };
   const auto repeated = [](double u, double v) {
     return texel(u - std::floor(u), v - std::floor(v));
@@ -203,6 +132,85 @@ TEST_F(GoldenColours, CoordinateSetsTransformsFactorsAndColoursOfVertices) {
   in_square(square(6), [&](double x, double y, const Point& centre) {
     expect(centre, repeated(x, 1 - y), 0.05);
   });
+}
+
+// The quads of the Khronos sample, by the formula of KHR_texture_transform, where their images are
+// plain.
+TEST_F(GoldenColours, TextureTransformTest) {
+  SVDAG_NEEDS_SHARED_SCENES();
+  const std::string path = shared_scene("texture_transform_test.glb");
+  colour(path, 100);
+  std::ifstream in(path, std::ios::binary);
+  const std::string glb{std::istreambuf_iterator<char>(in), {}};
+  uint32_t json_bytes = 0;
+  std::memcpy(&json_bytes, &glb[12], sizeof json_bytes);
+  const nlohmann::json json = nlohmann::json::parse(glb.substr(20, json_bytes));
+  const auto view = [&](size_t i) {
+    const auto& v = json["bufferViews"][i];
+    return std::as_bytes(std::span(glb).subspan(28 + json_bytes + v.value("byteOffset", 0U),
+                                                v["byteLength"].get<size_t>()));
+  };
+  MemoryBudget budget;
+  for (const auto& node : json["nodes"]) {
+    const std::string name = node["name"];
+    if (name.find(" - ") != name.npos) continue;  // the marks
+    SCOPED_TRACE(name);
+    const auto& primitive = json["meshes"][node["mesh"].get<size_t>()]["primitives"][0];
+    std::array<float, 8> uv;  // of the corners
+    const auto& accessor = json["accessors"][primitive["attributes"]["TEXCOORD_0"].get<size_t>()];
+    std::memcpy(uv.data(), view(accessor["bufferView"]).data(), sizeof uv);
+    std::array<float, 12> corners;
+    std::memcpy(corners.data(), view(0).data(), sizeof corners);
+    const auto& texture = json["materials"][primitive["material"].get<size_t>()]
+                              ["pbrMetallicRoughness"]["baseColorTexture"];
+    const auto& transform = texture["extensions"]["KHR_texture_transform"];
+    const auto pair = [&](const char* key, double fallback) {
+      return transform.value(key, std::array<double, 2>{fallback, fallback});
+    };
+    const auto offset = pair("offset", 0), scale = pair("scale", 1);
+    const double angle = transform.value("rotation", 0.0);
+    const ColourTexels image = colours_of_image(
+        {view(json["images"][texture["index"].get<size_t>()]["bufferView"]), path}, &budget);
+    const auto texel = [&](int64_t i, int64_t j) {
+      const int64_t column = std::clamp<int64_t>(i, 0, image.width - 1);
+      const uint8_t* const rgba = &image.rgba[size_t(
+          4 * (std::clamp<int64_t>(j, 0, image.height - 1) * image.width + column))];
+      return std::array<uint8_t, 3>{rgba[0], rgba[1], rgba[2]};
+    };
+    // Coordinates are linear in x and y: of the corner at the low end, and by the others.
+    const auto coordinate = [&](double x, double y) {
+      std::array<double, 2> at{};
+      for (size_t k = 0; k < 4; ++k) {
+        const double share =
+            (corners[3 * k] > 0 ? x : 1 - x) * (corners[3 * k + 1] > 0 ? y : 1 - y);
+        for (size_t c = 0; c < 2; ++c) at[c] += share * uv[2 * k + c];
+      }
+      return at;
+    };
+    const auto& t = node["translation"];
+    const Point low(t[0].get<double>() - 0.5, t[1].get<double>() - 0.5, 0);
+    std::set<std::array<uint8_t, 3>> seen;
+    const int n = 100;
+    for (int i = 2; i + 2 < n; ++i) {
+      for (int j = 2; j + 2 < n; ++j) {
+        const Point p = low + Point((i + 0.5) / n, (j + 0.5) / n, -0.5 / n);
+        const auto at = coordinate(p.x - low.x, p.y - low.y);
+        const double s = scale[0] * at[0], r = scale[1] * at[1];
+        const double u = image.width * (std::cos(angle) * s + std::sin(angle) * r + offset[0]);
+        const double v = image.height * (std::cos(angle) * r - std::sin(angle) * s + offset[1]);
+        const auto middle = texel(int64_t(std::floor(u)), int64_t(std::floor(v)));
+        bool is_plain = true;
+        for (int a = -4; a <= 4; ++a) {
+          for (int b = -4; b <= 4; ++b)
+            is_plain &= texel(int64_t(std::floor(u)) + a, int64_t(std::floor(v)) + b) == middle;
+        }
+        if (!is_plain) continue;
+        expect(p, light(middle[0], middle[1], middle[2]), 0.05);
+        seen.insert(middle);
+      }
+    }
+    EXPECT_GT(seen.size(), 1U);
+  }
 }
 
 }  // namespace

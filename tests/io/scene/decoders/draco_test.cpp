@@ -12,8 +12,11 @@
 #include <cmath>
 #include <random>
 
+#include "io/scene/colours/linear_images.h"
+#include "io/scene/decoders/image.h"
 #include "tests/expect_error.h"
 #include "tests/io/scene/gltf/gltf_builder.h"
+#include "tests/io/scene/png_file.h"
 #include "tests/sanitized.h"
 
 namespace svdag {
@@ -130,6 +133,112 @@ TEST_P(DracoMethods, QuantizedPositionsStandOnTheirLatticeInDouble) {
   const DracoMesh mesh = decode(encode(9, 12, GetParam()));
   EXPECT_EQ(mesh.step, 9.0 / 4095);  // the extent of the field over 2^12 - 1
   EXPECT_EQ(canonical(faces_of(mesh)), canonical(expected_faces(9, 9.0 / 4095)));
+}
+
+// Corners of a mesh with a seam: the two triangles of a quad have coordinates and colours of their
+// own.
+std::array<float, 2> texture_at(const std::array<float, 3>& p, size_t face) {
+  return {p[0] / 8 + (face % 2 == 0 ? 0.0f : 0.5f), p[1] / 4};
+}
+std::array<uint8_t, 4> colour_at(const std::array<float, 3>& p, size_t face) {
+  return {uint8_t(10 * p[0]), uint8_t(10 * p[1]), uint8_t(face % 2 == 0 ? 51 : 204), 255};
+}
+
+std::string encode_painted(int n, draco::MeshEncoderMethod method) {
+  const auto faces = field(n);
+  draco::TriangleSoupMeshBuilder builder;
+  builder.Start(int(faces.size()));
+  const int position =
+      builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
+  const int texture =
+      builder.AddAttribute(draco::GeometryAttribute::TEX_COORD, 2, draco::DT_FLOAT32);
+  const int colour = builder.AddAttribute(draco::GeometryAttribute::COLOR, 4, draco::DT_UINT8);
+  for (size_t f = 0; f < faces.size(); ++f) {
+    const draco::FaceIndex face{uint32_t(f)};
+    const auto set = [&](int id, const auto& value) {
+      const auto a = value(faces[f][0], f), b = value(faces[f][1], f), c = value(faces[f][2], f);
+      builder.SetAttributeValuesForFace(id, face, a.data(), b.data(), c.data());
+    };
+    set(position, [](const std::array<float, 3>& p, size_t) { return p; });
+    set(texture, texture_at);
+    set(colour, colour_at);
+  }
+  const auto mesh = builder.Finalize();
+  draco::Encoder encoder;
+  encoder.SetEncodingMethod(method);
+  encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, 14);
+  encoder.SetAttributeQuantization(draco::GeometryAttribute::TEX_COORD, 12);
+  draco::EncoderBuffer buffer;
+  EXPECT_TRUE(encoder.EncodeMeshToBuffer(*mesh, &buffer).ok());
+  return {buffer.data(), buffer.size()};
+}
+
+TEST_P(DracoMethods, TextureCoordinatesAndColoursOfVerticesAreDecodedIfTheyAreWanted) {
+  const int n = 4;
+  const std::string drc = encode_painted(n, GetParam()), image = one_texel(9, 9, 9);
+  GltfBuilder gltf;
+  gltf.json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+  const int view = gltf.view(std::vector<char>(drc.begin(), drc.end()));
+  gltf.append("images", {{"bufferView", gltf.view(std::vector<char>(image.begin(), image.end()))}});
+  gltf.append("textures", {{"source", 0}});
+  gltf.append("materials",
+              {{"pbrMetallicRoughness",
+                {{"baseColorTexture", {{"index", 0}}}, {"baseColorFactor", {0.5, 1, 1, 1}}}}});
+  const auto accessor = [&](int component, const char* type) {
+    return gltf.append("accessors", {{"componentType", component}, {"count", 25}, {"type", type}});
+  };
+  const int mesh = gltf.mesh(accessor(5126, "VEC3"));
+  json& primitive = gltf.json["meshes"][0]["primitives"][0];
+  primitive["material"] = 0;
+  primitive["attributes"]["TEXCOORD_0"] = accessor(5126, "VEC2");
+  primitive["attributes"]["COLOR_0"] = accessor(5121, "VEC4");
+  primitive["extensions"]["KHR_draco_mesh_compression"] = {
+      {"bufferView", view}, {"attributes", {{"POSITION", 0}, {"TEXCOORD_0", 1}, {"COLOR_0", 2}}}};
+  gltf.show(mesh);
+  const TempFolder folder;
+  const auto read = [&](bool coloured, const TriangleSink& sink) {
+    MemoryBudget budget;
+    ImageMeans means(&budget, false);
+    LinearImages images(&budget, false);
+    const NameFilter names;
+    ReadOptions options{&names, false, &budget};
+    if (coloured) options.images = &means;
+    if (coloured) options.paints = &images;
+    const File file = File::open_read(folder.write("a.glb", gltf.glb()));
+    return read_meshes(read_gltf, file, options, sink);
+  };
+  CornerList plain, painted;
+  read(false, [&](const TriangleBatch& batch) {
+    for (const Triangle& t : batch.triangles) {
+      for (const Point& p : t.v) plain.push_back({p.x, p.y, p.z});
+    }
+  });
+  read(true, [&](const TriangleBatch& batch) {
+    ASSERT_NE(batch.paint, nullptr);
+    ASSERT_NE(batch.paint->image, nullptr);
+    EXPECT_NEAR(batch.paint->factor[0], 0.5, 1e-4);
+    EXPECT_GT(batch.quantisation, 0);
+    for (size_t k = 0; k < batch.triangles.size(); ++k) {
+      const auto& v = batch.triangles[k].v;
+      const bool odd = batch.corner_colours[k][0][2] == light16(204 / 255.0);
+      for (size_t i = 0; i < 3; ++i) {
+        painted.push_back({v[i].x, v[i].y, v[i].z});
+        const std::array<float, 3> p = {float(std::round(v[i].x)), float(std::round(v[i].y)), 0};
+        const auto uv = texture_at(p, odd ? 1 : 0);
+        EXPECT_NEAR(batch.texture[k][i].u, uv[0], 1e-3);
+        EXPECT_NEAR(batch.texture[k][i].v, uv[1], 1e-3);
+        const auto c = colour_at(p, odd ? 1 : 0);
+        for (size_t channel = 0; channel < 3; ++channel)
+          EXPECT_EQ(batch.corner_colours[k][i][channel], light16(c[channel] / 255.0));
+      }
+    }
+  });
+  EXPECT_EQ(painted, plain);
+  EXPECT_EQ(plain.size(), size_t(6 * n * n));
+  gltf.json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"]["attributes"]
+           ["TEXCOORD_0"] = 7;
+  EXPECT_SVDAG_ERROR(read(true, [](const TriangleBatch&) {}), ExitCode::kBadInput,
+                     "no attribute 7 of 2 components");
 }
 
 TEST_P(DracoMethods, NoDamagedByteCrashes) {

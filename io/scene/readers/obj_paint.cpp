@@ -1,0 +1,36 @@
+#include "io/scene/readers/obj_paint.h"
+
+#include <algorithm>
+
+namespace svdag {
+namespace {
+
+bool is_placed_alike(const MtlTexture& a, const MtlTexture& b) {
+  return std::ranges::equal(a.scale, b.scale) && std::ranges::equal(a.offset, b.offset) &&
+         a.clamp == b.clamp;
+}
+
+}  // namespace
+
+std::optional<ObjPaint> paint_of(const MtlMaterial& material, const ObjCutOut* cut,
+                                 LinearImages* images) {
+  const MtlTexture* const texture = material.texture.get();
+  if (texture == nullptr || texture->is_outside) return {};
+  double threshold = 0;
+  std::shared_ptr<const AlphaImage> mask;
+  if (cut != nullptr && is_placed_alike(*cut->use, *texture)) {
+    threshold = cut->cut.threshold;
+    if (cut->use != texture) mask = cut->cut.image;
+  }
+  const auto read = [&](MemoryBudget::Reservation* memory) {
+    return bytes_of_image(File::open_read(texture->path), images->budget(), memory);
+  };
+  ObjPaint result{{images->image(texture->path, threshold, read, mask)}, texture};
+  if (!result.paint.image) return {};
+  if (!texture->unknown.empty())
+    images->note(texture->path + ": the option " + texture->unknown + " is not followed");
+  result.paint.wrap_u = result.paint.wrap_v = texture->wrap();
+  return result;
+}
+
+}  // namespace svdag
