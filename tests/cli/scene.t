@@ -120,6 +120,27 @@ $ svdag-scene atrium --shuffle -q -o a.glb
 ! svdag-scene: --shuffle: a .glb keeps the order of its parts: write a .ply
 ? 2
 
+## scene_walks
+# The figure has a skeleton and an animation, which are followed.
+$ svdag-scene figure -q -o figure.glb
+$ sha256sum figure.glb
+| c74342c7a30f1363019c9ef5ee416f052c7c30156d18a86f5117d8ebb4c05490  figure.glb
+$ svdag info figure.glb | tail -1
+|   animation #0 walk: 1 s, moves 12 nodes, morphs 0
+$ svdag build figure.glb -r 128 --frames 0:0.75:0.25 -o a.svdag | sed 's/, [0-9.]* s$//'
+| a.svdag: 128^3, 79,200 triangles, 16,306 voxels, 3,178 nodes, 37.9 KiB (19.1 bits per voxel)
+$ svdag-verify mesh a.svdag figure.glb --frames 0:0.75:0.25 | grep -v grid
+| judge      integer: exact clipping
+| triangles  79,200
+| layer      0.00, 16,306 voxels in the file, 16,306 by the judge, 0 missing, 0 extra
+| layer      0.25, 16,905 voxels in the file, 16,905 by the judge, 0 missing, 0 extra
+| layer      0.50, 16,300 voxels in the file, 16,300 by the judge, 0 missing, 0 extra
+| layer      0.75, 16,942 voxels in the file, 16,942 by the judge, 0 missing, 0 extra
+| ok: every voxel agrees with the scene
+$ svdag-scene figure --yaw 30 -q -o figure.glb
+! svdag-scene: --yaw: the joints of a .glb do not turn: write a .ply
+? 2
+
 ## scene_too_few
 $ svdag-scene atrium -n 100 -o t.ply
 ! svdag-scene: --triangles: this scene needs at least 84108 triangles
@@ -127,5 +148,5 @@ $ svdag-scene atrium -n 100 -o t.ply
 
 ## scene_unknown_kind
 $ svdag-scene teapot -o t.ply
-! svdag-scene: "teapot" is not a kind of scene: choose one of atrium, hairball, scan, city, terrain, rectangle, sheet, speck
+! svdag-scene: "teapot" is not a kind of scene: choose one of atrium, hairball, scan, city, terrain, rectangle, sheet, speck, figure
 ? 2

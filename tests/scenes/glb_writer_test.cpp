@@ -113,6 +113,44 @@ TEST(Glb, HoldsTheTrianglesOfTheMesh) {
   EXPECT_TRUE(in_file == in_mesh);
 }
 
+TEST(Glb, OfTheFigureHasWeightsThatSumToOneAndEveryJointMovesByUnitQuaternions) {
+  const Glb glb = parsed(file_of("figure", 15'000));
+  const size_t joints = glb.json["skins"][0]["joints"].size();
+  EXPECT_EQ(glb.count(glb.json["skins"][0]["inverseBindMatrices"]), joints);
+  std::set<int> used;
+  for (const Json& object : glb.json["meshes"]) {
+    for (const Json& primitive : object["primitives"]) {
+      const Json& attributes = primitive["attributes"];
+      for (uint64_t i = 0; i < glb.count(attributes["POSITION"]); ++i) {
+        int sum = 0;
+        for (size_t k = 0; k < 4; ++k) {
+          const int weight = glb.at<uint8_t>(attributes["WEIGHTS_0"], i, k);
+          if (weight > 0) used.insert(glb.at<uint8_t>(attributes["JOINTS_0"], i, k));
+          sum += weight;
+        }
+        ASSERT_EQ(sum, 255);
+      }
+    }
+  }
+  EXPECT_EQ(used.size(), joints);
+  const Json& animation = glb.json["animations"][0];
+  EXPECT_EQ(animation["channels"].size(), joints - 1);  // the head is held
+  for (const Json& sampler : animation["samplers"]) {
+    const uint64_t keys = glb.count(sampler["input"]);
+    ASSERT_EQ(glb.count(sampler["output"]), keys);
+    for (uint64_t i = 0; i < keys; ++i) {
+      double norm = 0;
+      for (size_t k = 0; k < 4; ++k) {
+        const float value = glb.at<float>(sampler["output"], i, k);
+        norm += double(value) * value;
+        // The walk repeats.
+        EXPECT_NEAR(glb.at<float>(sampler["output"], i == 0 ? keys - 1 : i, k), value, 1e-6);
+      }
+      EXPECT_NEAR(norm, 1, 1e-6);
+    }
+  }
+}
+
 TEST(Glb, OfASceneWithoutMaterialsIsAUsageError) {
   const TempFolder folder;
   EXPECT_SVDAG_ERROR(write_glb(*make_scene("city", 120, 1), {}, folder.file("a.glb")),

@@ -97,7 +97,7 @@ void declare(CLI::App& app, Config& config) {
       ->needs(frames);
   takes_files(app.add_option("-o,--output", config.output,
                              "the file to write: .ply, .obj with names of the parts, or .glb with "
-                             "textures (atrium)"),
+                             "textures (atrium) or a walk (figure)"),
               {".ply", ".obj", ".glb"})
       ->required()
       ->type_name("X.ply");

@@ -20,6 +20,11 @@ const Material kMaterials[] = {
     {"blue cloth", kWhite, &kBlueBrocade, Chart::kAlong, 0.75, Wrapping::kRepeat, 1},
     {"leaves", kWhite, &kFern, Chart::kWhole, 1, Wrapping::kClamp, 0, true},
     {.name = "roof", .factor = {0.48, 0.09, 0.04}, .tinted = true},
+    {"skin", {0.60, 0.33, 0.22}},
+    {"hair", {0.06, 0.03, 0.02}},
+    {"shirt", {0.62, 0.06, 0.05}},
+    {"trousers", {0.05, 0.09, 0.22}},
+    {"shoe", {0.05, 0.04, 0.03}},
 };
 
 }  // namespace
