@@ -139,7 +139,7 @@ LIBRARIES = {
     r"zlib": r"io/formats/voxels/zip\.cpp|io/scene/decoders/gzip\.cpp|verify/view/tile_file\.cpp|tests/io/scene/(decoders/gzip_test\.cpp|(png|zip)_file\.h)",
     r"httplib": r"verify/view/server\.cpp",
     r"draco/": r"io/scene/decoders/draco\.cpp|tests/.*",
-    r"stb_?|stb/": r"verify/trace/image\.cpp|io/scene/decoders/image\.cpp|tests/io/scene/decoders/image_test\.cpp",
+    r"stb_?|stb/": r"verify/trace/image\.cpp|io/scene/decoders/image\.cpp|tests/(io/scene/decoders/image_test|scenes/textures)\.cpp",
     r"stxxl/": r"tests/bench/peers/stxxl\.cpp",
     r"CGAL/": r"verify/judge/judge_cgal\.cpp|tests/bench/peers/cgal\.cpp",
     r"openvdb/": r"verify/judge/judge_vdb\.cpp|io/formats/vdb/vdb_trees\.h|io/openvdb_grids\.h",

@@ -26,8 +26,13 @@ def rows_of(data):
         last = line
 
 
-for name in sys.argv[1:]:
-    with open(name, "rb") as file:
-        pixels = [line[i:i + 3] for line in rows_of(file.read()) for i in range(0, len(line), 3)]
-    found = [colour for colour, one, other in (("red", 0, 2), ("blue", 2, 0)) if any(p[one] > 1.6 * p[other] for p in pixels)]
-    print(name, *found)
+def main():
+    for name in sys.argv[1:]:
+        with open(name, "rb") as file:
+            pixels = [line[i:i + 3] for line in rows_of(file.read()) for i in range(0, len(line), 3)]
+        found = [colour for colour, one, other in (("red", 0, 2), ("blue", 2, 0)) if any(p[one] > 1.6 * p[other] for p in pixels)]
+        print(name, *found)
+
+
+if __name__ == "__main__":
+    main()

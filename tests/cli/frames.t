@@ -57,6 +57,9 @@ $ svdag-verify render a.svdag -o a.png --frames --size 32x18 -q && ls a_*.png
 | a_0003.png
 | a_0004.png
 | a_0005.png
+# A camera of one's own sees what it sees of one frame.
+$ svdag-verify render a.svdag -o a.png --frames --camera=3,2,3,0,0,0 --light=3,6,2,1 --size 32x18 -q
+$ svdag convert a.svdag -o frame.svdag --layer 02.625 -q && svdag-verify render frame.svdag -o one.png --camera=3,2,3,0,0,0 --light=3,6,2,1 --size 32x18 -q && cmp a_0002.png one.png
 
 ## frames_of_one_animation
 $ python3 -B $TESTS/moving_scene.py 4

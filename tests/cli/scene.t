@@ -87,6 +87,60 @@ $ sha256sum *.ply
 | b6cf8c7b6eb9f328264c1e4b6c283c7c0733de3c52459cbacc4ce8ae7d3bb232  shuffled.ply
 | f2639512fb5d3b1dad21e0002a7c03fb9ddb4b9d14f04d56090e37550fa2a8d0  terrain.ply
 
+## scene_textured
+# As a GLB the atrium has textures of every kind; all of it is baked, and coloured.
+$ svdag-scene atrium -n 90K -o atrium.glb
+| atrium.glb: 88,972 triangles, 72,418 vertices
+$ sha256sum atrium.glb
+| c46674db764edac2e71070490564168ef93f100098fbc213c68f474cdfcbe703  atrium.glb
+$ svdag info atrium.glb | tail -1
+|   5,184 triangles are cut out by the alpha of their material
+$ svdag info atrium.glb --parts | grep material:
+|              716  material:terracotta  (-15.6000061, -0.5, -8.1000061) .. (15.6000061, 0, 8.1000061)
+|            3,840  material:mosaic  (-11.9900055, 0, -4.49000549) .. (11.9900055, 0.0149993896, 4.49000549)
+|           37,512  material:limestone  (-16.1000061, 0, -8.6000061) .. (16.1000061, 9.30000305, 8.6000061)
+|            9,504  material:marble  (-12.3847961, 0.13999939, -4.88479614) .. (12.3847961, 6.67999268, 4.88479614)
+|            9,504  material:painted  (-12.3692017, 0.0149993896, -4.86920166) .. (12.3692017, 7.13999939, 4.86920166)
+|            6,200  material:brick  (-16.1000061, -0.5, -8.6000061) .. (16.1000061, 9.19999695, 8.6000061)
+|            5,184  material:leaves  (-11.7674103, 0.675003052, -4.40486145) .. (11.9405518, 1.32740784, 4.37942505)
+|            8,000  material:red cloth  (-12.6257477, 0.840011597, -5.16810608) .. (12.6290283, 8.80000305, 5.1103363)
+|            6,400  material:blue cloth  (-11.6937561, 0.840118408, -5.14982605) .. (11.6937561, 8.80000305, 5.13121033)
+|            2,112  material:roof  (-16.1000061, 9.30000305, -8.6000061) .. (16.1000061, 10.769989, 8.6000061)
+$ svdag build atrium.glb -r 256 --colours -o a.svdag | sed 's/, [0-9.]* s$//'
+| a.svdag: 256^3, 88,972 triangles, 379,044 voxels, 5,433 nodes, 273.5 KiB (5.91 bits per voxel)
+|   400,267 colours down to level 8, 194.0 KiB (3.97 bits each), a cube spans 26 texels
+|   5,184 triangles are cut out by the alpha of their material
+|   colour hash da27cac0478b1cbd6942d0849e920083
+$ svdag-verify mesh a.svdag atrium.glb | tail -1
+| ok: every voxel agrees with the scene
+$ svdag-scene scan -n 2K -q -o scan.glb
+! svdag-scene: scan.glb: this scene has no textures or movement: write a .ply or an .obj
+? 2
+$ svdag-scene atrium --shuffle -q -o a.glb
+! svdag-scene: --shuffle: a .glb keeps the order of its parts: write a .ply
+? 2
+
+## scene_walks
+# The figure has a skeleton and an animation, which are followed.
+$ svdag-scene figure -q -o figure.glb
+$ sha256sum figure.glb
+| c74342c7a30f1363019c9ef5ee416f052c7c30156d18a86f5117d8ebb4c05490  figure.glb
+$ svdag info figure.glb | tail -1
+|   animation #0 walk: 1 s, moves 12 nodes, morphs 0
+$ svdag build figure.glb -r 128 --frames 0:0.75:0.25 -o a.svdag | sed 's/, [0-9.]* s$//'
+| a.svdag: 128^3, 79,200 triangles, 16,306 voxels, 3,178 nodes, 37.9 KiB (19.1 bits per voxel)
+$ svdag-verify mesh a.svdag figure.glb --frames 0:0.75:0.25 | grep -v grid
+| judge      integer: exact clipping
+| triangles  79,200
+| layer      0.00, 16,306 voxels in the file, 16,306 by the judge, 0 missing, 0 extra
+| layer      0.25, 16,905 voxels in the file, 16,905 by the judge, 0 missing, 0 extra
+| layer      0.50, 16,300 voxels in the file, 16,300 by the judge, 0 missing, 0 extra
+| layer      0.75, 16,942 voxels in the file, 16,942 by the judge, 0 missing, 0 extra
+| ok: every voxel agrees with the scene
+$ svdag-scene figure --yaw 30 -q -o figure.glb
+! svdag-scene: --yaw: the joints of a .glb do not turn: write a .ply
+? 2
+
 ## scene_too_few
 $ svdag-scene atrium -n 100 -o t.ply
 ! svdag-scene: --triangles: this scene needs at least 84108 triangles
@@ -94,5 +148,5 @@ $ svdag-scene atrium -n 100 -o t.ply
 
 ## scene_unknown_kind
 $ svdag-scene teapot -o t.ply
-! svdag-scene: "teapot" is not a kind of scene: choose one of atrium, hairball, scan, city, terrain, rectangle, sheet, speck
+! svdag-scene: "teapot" is not a kind of scene: choose one of atrium, hairball, scan, city, terrain, rectangle, sheet, speck, figure
 ? 2

@@ -26,9 +26,9 @@ const Side kSides[] = {{{{-kX, 0, -kZ}, {1, 0, 0}, {0, 0, 1}}, kLong},
 void build_floor(Masonry& m) {
   const double x = kX + kGallery, z = kZ + kGallery;
   const Frame world;
-  m.part("floor");
+  m.part("floor", "terracotta");
   m.block(world, {-x, -0.5, -z}, {x, 0, z});
-  m.part("tile");
+  m.part("tile", "mosaic");
   const double pitch = 0.75;
   for (int i = 0; i < int(2 * kX / pitch); ++i) {
     for (int j = 0; j < int(2 * kZ / pitch); ++j) {
@@ -96,14 +96,15 @@ void build_roof(Masonry& m, const Side& side, std::vector<Patch>& roofs) {
     const double wave = sin_turns(2 * a);
     return f.at(a, 1.4 * v + 0.07 * wave * wave, out);
   };
-  roofs.push_back({surface, 2 * length, run, uint32_t(side.bays) * 24, 1, "roof"});
+  roofs.push_back({surface, 2 * length, run, uint32_t(side.bays) * 24, 1, "roof", "roof"});
   m.block(f, {-kGallery - 0.3, -0.1, -kGallery - kWall}, {length + kGallery + 0.3, 0, -kGallery});
 }
 
 void furnish(Masonry& m, const Side& side, uint64_t seed) {
   for (int bay = 0; bay < side.bays; ++bay) {
     const uint64_t own = hash(seed, uint64_t(bay));
-    m.part(bay % 4 == 1 ? "red cloth" : "blue cloth");
+    const char* const cloth = bay % 4 == 1 ? "red cloth" : "blue cloth";
+    m.part(cloth, cloth);
     if (bay % 2 == 1)
       m.curtain(side.frame.moved(kBay * bay + 0.35, kFloor[1] - 1, -0.45), kBay - 0.7, 3.3, own);
     if (bay % 3 == 1)
@@ -119,16 +120,16 @@ std::unique_ptr<Mesh> make_atrium(uint64_t triangles, uint64_t seed) {
   std::vector<Patch> roofs;
   build_floor(m);
   for (size_t i = 0; i < 4; ++i) {
-    m.part("stone");
+    m.part("stone", "limestone");
     build_arcade(m, kSides[i], 0);
     build_arcade(m, kSides[i], 1);
-    m.part("plaster");
+    m.part("plaster", "brick");
     build_wall(m, kSides[i]);
-    m.part("stone");
+    m.part("stone", "limestone");
     build_roof(m, kSides[i], roofs);
     furnish(m, kSides[i], hash(seed, i));
   }
-  m.part("stone");
+  m.part("stone", "limestone");
   for (const double x : {-kX - kGallery, kX}) {  // the galleries' corners
     for (const double z : {-kZ - kGallery, kZ}) {
       for (const double floor : {kFloor[1], kFloor[2]})

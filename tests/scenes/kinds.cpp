@@ -9,7 +9,8 @@ const std::vector<Kind>& kinds() {
       {"atrium", 260'000, make_atrium},   {"hairball", 2'880'000, make_hairball},
       {"scan", 1'000'000, make_scan},     {"city", 120'000, make_city},
       {"terrain", 500'000, make_terrain}, {"rectangle", 2, make_rectangle},
-      {"sheet", 2, make_sheet},           {"speck", 1'000'000, make_speck}};
+      {"sheet", 2, make_sheet},           {"speck", 1'000'000, make_speck},
+      {"figure", 20'000, make_figure}};
   return all;
 }
 

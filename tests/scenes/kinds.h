@@ -11,6 +11,8 @@ namespace svdag::scenes {
 
 // A building around a court: two storeys of round arches, columns, tiled floor, curtains, plants.
 std::unique_ptr<Mesh> make_atrium(uint64_t triangles, uint64_t seed);
+// A person with a skeleton who walks, if written as a GLB.
+std::unique_ptr<Mesh> make_figure(uint64_t triangles, uint64_t seed);
 // Thin tubes from the centre of a sphere to its surface: much surface, hardly any flat part.
 std::unique_ptr<Mesh> make_hairball(uint64_t triangles, uint64_t seed);
 // A closed, displaced sphere without any flat part, like the scan of a sculpture.

@@ -7,6 +7,7 @@
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/process/program.h"
+#include "tests/scenes/glb_writer.h"
 #include "tests/scenes/kinds.h"
 #include "tests/scenes/moving.h"
 #include "tests/scenes/obj_writer.h"
@@ -40,8 +41,10 @@ uint64_t parse_triangles(const std::string& text) {
 }
 
 void write(const scenes::Mesh& mesh, const Config& config, const std::string& path) {
-  path.ends_with(".obj") ? scenes::write_obj(mesh, config.ply, path)
-                         : scenes::write_ply(mesh, config.ply, path);
+  const auto writer = path.ends_with(".glb")   ? scenes::write_glb
+                      : path.ends_with(".obj") ? scenes::write_obj
+                                               : scenes::write_ply;
+  writer(mesh, config.ply, path);
 }
 
 // X_0001.ply, X_0002.ply, ...
@@ -93,8 +96,9 @@ void declare(CLI::App& app, Config& config) {
   app.add_flag("--tenth", config.tenth, "only the top tenth of a scan's surface sways")
       ->needs(frames);
   takes_files(app.add_option("-o,--output", config.output,
-                             "the file to write: .ply, or .obj with names of the parts"),
-              {".ply", ".obj"})
+                             "the file to write: .ply, .obj with names of the parts, or .glb with "
+                             "textures (atrium) or a walk (figure)"),
+              {".ply", ".obj", ".glb"})
       ->required()
       ->type_name("X.ply");
   app.set_version_flag("-V,--version", "svdag-scene " SVDAG_VERSION, "print the version and exit");
@@ -103,7 +107,7 @@ void declare(CLI::App& app, Config& config) {
 
 int parse_and_run(int argc, char** argv) {
   Config config;
-  CLI::App app("Makes a test scene as a PLY or OBJ file, the same bytes on every machine",
+  CLI::App app("Makes a test scene as a PLY, OBJ or GLB file, the same bytes on every machine",
                "svdag-scene");
   declare(app, config);
   if (const auto exit_code = read_command_line(&app, argc, argv)) return *exit_code;

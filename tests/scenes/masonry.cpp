@@ -34,7 +34,7 @@ void Masonry::block(const Frame& f, const Point& low, const Point& high) {
   sheet(f, low, {high.x - low.x, 0, 0}, {0, 0, high.z - low.z});
 }
 
-void Masonry::turned(const Frame& f, const Profile& profile) {
+void Masonry::turned(const Frame& f, const Profile& profile, uint32_t cell) {
   const double pieces = double(profile.size() - 1);
   double widest = 0, height = 0;
   for (size_t i = 0; i < profile.size(); ++i) {
@@ -51,8 +51,8 @@ void Masonry::turned(const Frame& f, const Profile& profile) {
     const double r = r0 + (r1 - r0) * t;
     return f.at(r * cos_turns(u), y0 + (y1 - y0) * t, -r * sin_turns(u));
   };
-  // Three times as fine as what is flat, so that it looks round.
-  add(surface, 3 * 6.28 * widest, height, kRound, uint32_t(pieces));
+  // Three times as fine as what is flat, so that it looks round. Its texture repeats twice around.
+  add_bent(surface, 3 * 6.28 * widest, height, kRound, uint32_t(pieces), 2).cell = cell;
 }
 
 // The wall between the arc and its frame, in three patches that meet in the frame's upper corners.
@@ -86,8 +86,8 @@ void Masonry::arch(const Frame& f, const Arch& arch) {
   const auto ring = [=](double turn, double radius, double depth) {
     return f.at(half + radius * cos_turns(turn), arch.spring + radius * sin_turns(turn), depth);
   };
-  add([=](double u, double v) { return ring(u / 2, arch.radius, (2 * v - 1) * c); }, arc,
-      arch.thickness, 16);
+  add_bent([=](double u, double v) { return ring(u / 2, arch.radius, (2 * v - 1) * c); }, arc,
+           arch.thickness, 16, 1, arc);
   // The moulding: the front and the outer side of a ring that projects from the wall.
   const double outer = arch.radius + 0.16, front = c + 0.05;
   add([=](double u, double v) { return ring(u / 2, outer + (arch.radius - outer) * v, front); },
@@ -103,6 +103,7 @@ void Masonry::arch(const Frame& f, const Arch& arch) {
 void Masonry::column(const Frame& f, double height, double radius) {
   const double wide = radius * 1.5;
   block(f, {-wide, 0, -wide}, {wide, 0.14, wide});
+  const char* const wall = std::exchange(material_, "marble");
   turned(f, {{1.42 * radius, 0.14},
              {1.48 * radius, 0.18},
              {1.42 * radius, 0.24},
@@ -115,13 +116,17 @@ void Masonry::column(const Frame& f, double height, double radius) {
              {0.99 * radius, 0.37 + (shaft - 0.37) * 0.33},
              {0.95 * radius, 0.37 + (shaft - 0.37) * 0.67},
              {0.86 * radius, shaft}});
-  turned(f, {{0.86 * radius, shaft},
-             {radius, shaft + 0.03},
-             {radius, shaft + 0.08},
-             {0.88 * radius, shaft + 0.1},
-             {0.95 * radius, shaft + 0.22},
-             {1.15 * radius, shaft + 0.36},
-             {1.42 * radius, shaft + 0.46}});
+  material_ = "painted";
+  turned(f,
+         {{0.86 * radius, shaft},
+          {radius, shaft + 0.03},
+          {radius, shaft + 0.08},
+          {0.88 * radius, shaft + 0.1},
+          {0.95 * radius, shaft + 0.22},
+          {1.15 * radius, shaft + 0.36},
+          {1.42 * radius, shaft + 0.46}},
+         4);
+  material_ = wall;
   block(f, {-wide, height - 0.16, -wide}, {wide, height, wide});
 }
 
@@ -134,7 +139,7 @@ void Masonry::curtain(const Frame& f, double width, double drop, uint64_t seed) 
     return f.at(width * (u + 0.02 * sin_turns(3 * u + v)), -(drop + hem) * v,
                 open * sin_turns(turn) + 0.1 * noise(seed, {u * 3, v * 3, 0.5}) * v);
   };
-  add(surface, 3 * width, 1.5 * drop, 40, 10);
+  add_bent(surface, 3 * width, 1.5 * drop, 40, 10, 1.5 * width);
 }
 
 void Masonry::leaf(const Frame& f, double turn, double size) {
@@ -149,20 +154,22 @@ void Masonry::leaf(const Frame& f, double turn, double size) {
 }
 
 void Masonry::plant(const Frame& f, uint64_t seed) {
-  part("vase");
-  turned(f, {{0, 0},
-             {0.22, 0},
-             {0.24, 0.05},
-             {0.16, 0.1},
-             {0.3, 0.28},
-             {0.37, 0.45},
-             {0.33, 0.6},
-             {0.24, 0.68},
-             {0.31, 0.74},
-             {0.28, 0.74},
-             {0.22, 0.68},
-             {0, 0.66}});
-  part("leaves");
+  part("vase", "painted");
+  turned(f,
+         {{0, 0},
+          {0.22, 0},
+          {0.24, 0.05},
+          {0.16, 0.1},
+          {0.3, 0.28},
+          {0.37, 0.45},
+          {0.33, 0.6},
+          {0.24, 0.68},
+          {0.31, 0.74},
+          {0.28, 0.74},
+          {0.22, 0.68},
+          {0, 0.66}},
+         uint32_t(1 + seed % 3));
+  part("leaves", "leaves");
   const Frame top = f.moved(0, 0.66, 0);
   for (uint64_t i = 0; i < 18; ++i)
     leaf(top, double(i) * 0.381966 + 0.05 * uniform(seed, 2 * i),

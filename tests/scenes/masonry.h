@@ -37,8 +37,8 @@ struct Arch {
 
 class Masonry {
  public:
-  // The part that the patches from here on belong to.
-  void part(const char* name) { part_ = name; }
+  // The part and the material of the patches from here on.
+  void part(const char* name, const char* material) { part_ = name, material_ = material; }
   std::vector<Patch> take() { return std::move(patches_); }
 
   // The box a0..a1, y0..y1, c0..c1.
@@ -47,8 +47,8 @@ class Masonry {
   void tile(const Frame& f, const Point& low, const Point& high);
   // A flat patch with corners p, p + u, p + v, p + u + v in the frame.
   void sheet(const Frame& f, const Point& p, const Point& u, const Point& v);
-  // A surface of revolution about the frame's y axis.
-  void turned(const Frame& f, const Profile& profile);
+  // A surface of revolution about the frame's y axis; `cell` as in Patch.
+  void turned(const Frame& f, const Profile& profile, uint32_t cell = 0);
   // The part of a wall above `spring`, with a round opening and a moulding along it.
   void arch(const Frame& f, const Arch& arch);
   // A column with base and capital whose abacus ends at `height`.
@@ -59,15 +59,26 @@ class Masonry {
   void plant(const Frame& f, uint64_t seed);
 
  private:
-  void add(std::function<Point(double, double)> surface, double width, double height,
-           uint32_t multiple_u = 1, uint32_t multiple_v = 1) {
-    patches_.push_back({std::move(surface), width, height, multiple_u, multiple_v, part_});
+  Patch& add(std::function<Point(double, double)> surface, double width, double height,
+             uint32_t multiple_u = 1, uint32_t multiple_v = 1) {
+    patches_.push_back(
+        {std::move(surface), width, height, multiple_u, multiple_v, part_, material_});
+    return patches_.back();
+  }
+  // One whose texture follows its lengths.
+  Patch& add_bent(std::function<Point(double, double)> surface, double width, double height,
+                  uint32_t multiple_u, uint32_t multiple_v, double chart_width) {
+    Patch& patch = add(std::move(surface), width, height, multiple_u, multiple_v);
+    patch.mapping = Mapping::kLengths;
+    patch.chart_width = chart_width;
+    return patch;
   }
   void arch_face(const Frame& f, const Arch& arch, double c);
   void leaf(const Frame& f, double turn, double size);
 
   std::vector<Patch> patches_;
   const char* part_ = "stone";
+  const char* material_ = "limestone";
 };
 
 }  // namespace svdag::scenes

@@ -17,6 +17,19 @@ namespace svdag::scenes {
 
 using Face = std::array<uint64_t, 3>;
 
+// A point of a surface in two charts of textures.
+struct Charts {
+  std::array<double, 2> whole{};  // [0, 1]^2 over a surface, or a quarter of it in an atlas
+  std::array<double, 2> along{};  // metres along the surface, for textures that repeat
+};
+
+struct Rig;  // tests/scenes/rig.h
+// A vertex moves with two joints.
+struct Grip {
+  size_t joint = 0, other = 0;
+  double share = 0;  // of the other joint
+};
+
 class Mesh {
  public:
   virtual ~Mesh() = default;
@@ -26,6 +39,11 @@ class Mesh {
   virtual Face face(uint64_t i) const = 0;     // i < faces(); three different vertices
   // The part of the scene that face i belongs to, such as "roof".
   virtual std::string part(uint64_t) const { return "surface"; }
+  // Its material, one of tests/scenes/materials.h if the scene has any.
+  virtual std::string material(uint64_t i) const { return part(i); }
+  virtual Charts charts(uint64_t) const { return {}; }  // of vertex i
+  virtual const Rig* rig() const { return nullptr; }    // of a scene that is animated
+  virtual Grip grip(uint64_t) const { return {}; }      // of vertex i, if there is a rig
 };
 
 // Face i of a grid of quads, `columns` quads in a row, vertices numbered row by row from 0. Each

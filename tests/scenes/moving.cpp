@@ -6,8 +6,8 @@ namespace svdag::scenes {
 namespace {
 
 constexpr double kFieldExtent = 64;  // |y| of most kinds is less
-constexpr double kSway = 4;     // the largest move
-constexpr double kTop = 42.5;   // a tenth of the vertices of the default scan are above it
+constexpr double kSway = 4;          // the largest move
+constexpr double kTop = 42.5;        // a tenth of the vertices of the default scan are above it
 
 }  // namespace
 

@@ -17,6 +17,8 @@ class MovingMesh : public Mesh {
   uint64_t faces() const override { return mesh_.faces(); }
   Face face(uint64_t i) const override { return mesh_.face(i); }
   std::string part(uint64_t i) const override { return mesh_.part(i); }
+  std::string material(uint64_t i) const override { return mesh_.material(i); }
+  Charts charts(uint64_t i) const override { return mesh_.charts(i); }
   Point vertex(uint64_t i) const override;
 
  private:

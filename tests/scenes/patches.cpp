@@ -12,6 +12,15 @@ uint32_t divisions(double metres, double density, uint32_t multiple) {
   return multiple * uint32_t(std::max(1.0, std::floor(metres * density / multiple + 0.5)));
 }
 
+// The axis closest to the normal of the patch in its middle.
+size_t facing_axis(const Patch& patch) {
+  const Point middle = patch.surface(0.5, 0.5);
+  const Point a = patch.surface(0.625, 0.5) - middle, b = patch.surface(0.5, 0.625) - middle;
+  const double normal[] = {std::abs(a.y * b.z - a.z * b.y), std::abs(a.z * b.x - a.x * b.z),
+                           std::abs(a.x * b.y - a.y * b.x)};
+  return size_t(std::max_element(normal, normal + 3) - normal);
+}
+
 }  // namespace
 
 std::vector<PatchMesh::Piece> PatchMesh::divide(const std::vector<Patch>& patches, double density) {
@@ -41,15 +50,33 @@ PatchMesh::PatchMesh(std::vector<Patch> patches, uint64_t triangles)
   pieces_ = divide(patches_, low);
 }
 
-Point PatchMesh::vertex(uint64_t i) const {
+PatchMesh::Place PatchMesh::place(uint64_t vertex) const {
   const auto after =
-      std::upper_bound(pieces_.begin(), pieces_.end(), i,
+      std::upper_bound(pieces_.begin(), pieces_.end(), vertex,
                        [](uint64_t n, const Piece& p) { return n < p.first_vertex; });
   const Piece& piece = *(after - 1);
-  const uint64_t at = i - piece.first_vertex;
-  return patches_[size_t(after - 1 - pieces_.begin())].surface(
-      double(at % (piece.columns + 1)) / piece.columns,
-      double(at / (piece.columns + 1)) / piece.rows);
+  const uint64_t at = vertex - piece.first_vertex;
+  return {patches_[size_t(after - 1 - pieces_.begin())],
+          double(at % (piece.columns + 1)) / piece.columns,
+          double(at / (piece.columns + 1)) / piece.rows};
+}
+
+Point PatchMesh::vertex(uint64_t i) const {
+  const Place at = place(i);
+  return at.patch.surface(at.u, at.v);
+}
+
+Charts PatchMesh::charts(uint64_t i) const {
+  const auto [patch, u, v] = place(i);
+  Charts charts{{u, v}, {u * patch.chart_width, v * patch.height}};
+  if (patch.cell > 0)
+    charts.whole = {((patch.cell - 1) % 2 + u) / 2, ((patch.cell - 1) / 2 + v) / 2};
+  if (patch.mapping == Mapping::kPlane) {
+    const Point p = patch.surface(u, v);
+    const size_t facing = facing_axis(patch);
+    charts.along = {facing == 0 ? p.z : p.x, facing == 1 ? p.z : p.y};
+  }
+  return charts;
 }
 
 size_t PatchMesh::piece_of(uint64_t face) const {

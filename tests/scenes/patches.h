@@ -13,12 +13,22 @@
 
 namespace svdag::scenes {
 
+// How the metres of a chart follow a patch (Charts::along).
+enum class Mapping {
+  kPlane,   // by the coordinate plane that the patch faces, so that patches in a plane continue
+  kLengths  // u * chart_width, v * height
+};
+
 struct Patch {
   std::function<Point(double u, double v)> surface;
   double width, height;  // metres along u and v
   // The divisions are multiples of these: 1 for what is flat, more for what is round.
   uint32_t multiple_u = 1, multiple_v = 1;
   const char* part = "stone";
+  const char* material = "limestone";
+  Mapping mapping = Mapping::kPlane;
+  double chart_width = 0;
+  uint32_t cell = 0;  // 1 .. 4: the quarter of an atlas that the patch covers
 };
 
 class PatchMesh : public Mesh {
@@ -31,7 +41,17 @@ class PatchMesh : public Mesh {
   uint64_t faces() const override { return pieces_.back().first_face; }
   Point vertex(uint64_t i) const override;
   Face face(uint64_t i) const override;
-  std::string part(uint64_t i) const override { return patches_[piece_of(i)].part; }
+  std::string part(uint64_t i) const override { return patch_of_face(i).part; }
+  std::string material(uint64_t i) const override { return patch_of_face(i).material; }
+  Charts charts(uint64_t i) const override;
+
+ protected:
+  // A vertex: its patch and where it is on it.
+  struct Place {
+    const Patch& patch;
+    double u, v;
+  };
+  Place place(uint64_t vertex) const;
 
  private:
   struct Piece {
@@ -39,6 +59,7 @@ class PatchMesh : public Mesh {
     uint32_t columns, rows;
   };
   size_t piece_of(uint64_t face) const;
+  const Patch& patch_of_face(uint64_t face) const { return patches_[piece_of(face)]; }
   static std::vector<Piece> divide(const std::vector<Patch>& patches, double density);
 
   std::vector<Patch> patches_;

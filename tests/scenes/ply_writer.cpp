@@ -1,41 +1,13 @@
 #include "tests/scenes/ply_writer.h"
 
-#include <bit>
-#include <cstring>
-#include <vector>
-
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
+#include "tests/scenes/large_writes.h"
 #include "tests/scenes/numbers.h"
 #include "tests/scenes/permutation.h"
 
 namespace svdag::scenes {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "the bytes are written as they lie");
-
-// Gathers small values into large writes.
-class Output {
- public:
-  explicit Output(AtomicFile* file) : file_(file) { bytes_.reserve(kLarge + 64); }
-
-  template <class T>
-  void put(T value) {
-    const size_t at = bytes_.size();
-    bytes_.resize(at + sizeof value);
-    std::memcpy(bytes_.data() + at, &value, sizeof value);
-    if (bytes_.size() >= kLarge) flush();
-  }
-  void flush() {
-    file_->append(bytes_);
-    bytes_.clear();
-  }
-
- private:
-  static constexpr size_t kLarge = size_t(1) << 20;
-  AtomicFile* file_;
-  std::vector<std::byte> bytes_;
-};
 
 std::string header(const Mesh& mesh, bool double_precision) {
   const std::string type = double_precision ? "double" : "float";
@@ -66,7 +38,7 @@ void write_ply(const Mesh& mesh, const PlyOptions& options, const std::string& p
                " vertices, more than a PLY file can number (2^32)");
   AtomicFile file(path);
   file.append(header(mesh, options.double_precision));
-  Output out(&file);
+  LargeWrites out(&file);
   const Permutation vertex_order(mesh.vertices(), hash(options.seed, 1));
   const Permutation face_order(mesh.faces(), hash(options.seed, 2));
 

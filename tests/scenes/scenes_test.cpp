@@ -20,8 +20,8 @@
 namespace svdag::scenes {
 namespace {
 
-constexpr uint64_t kSmall[] = {90'000, 10'000, 10'000, 10'000,
-                               10'000, 2,      2,      10'000};  // in the order of kinds()
+constexpr uint64_t kSmall[] = {90'000, 10'000, 10'000, 10'000, 10'000,
+                               2,      2,      10'000, 15'000};  // in the order of kinds()
 
 using Position = std::array<double, 3>;
 using Soup = std::multiset<std::array<Position, 3>>;

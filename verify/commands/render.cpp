@@ -32,10 +32,9 @@ ShadeMode parse_mode(const std::string& mode) {
 // The first camera. A camera that flies keeps the whole box in view, and so does one of frames.
 Camera first_camera(const RenderCommandConfig& config, const DagView& dag, const VoxelBounds& box) {
   const ViewOptions& view = config.view;
-  if (config.fly && view.camera.empty() && view.preset != "inside")
-    return camera_of(view, {}, turntable_bounds(box, view.up));
-  if (config.frames && view.preset != "inside") return camera_of(view, {}, box);
-  return camera_of(view, dag, box);
+  if (!view.camera.empty() || view.preset == "inside") return camera_of(view, dag, box);
+  if (config.fly) return camera_of(view, {}, turntable_bounds(box, view.up));
+  return camera_of(view, config.frames ? DagView{} : dag, box);
 }
 
 // Applies the options of light and rays, and --level.
