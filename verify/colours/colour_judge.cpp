@@ -15,7 +15,7 @@
 namespace svdag {
 namespace {
 
-constexpr double kRounding = 1;             // steps, of the two roundings and of decoders
+constexpr double kRounding = 1;             // steps
 constexpr uint64_t kMaxCubesInside = 4096;  // of a coarser cube that is judged
 
 // Counts of the cubes of the colour level.
@@ -202,7 +202,8 @@ class ColourJudge {
     WrongColour w{cell_of_code(code), level_, stored, {}, {}, 0};
     for (size_t c = 0; c < 3; ++c) {
       const double mean = estimate.mean(c), tolerance = estimate.tolerance(c);
-      check(c, mean, std::max(0.0, mean - tolerance), std::min(1.0, mean + tolerance), &w);
+      check(c, mean, std::max(0.0, mean - tolerance), std::min(1.0, mean + tolerance),
+            estimate.decoder_error(), &w);
       if (stored != kNoColour)
         differences_.push_back(std::abs(channel_of(stored, c) - std::round(w.expected[c])));
       allowed_ += w.allowed[c];
@@ -229,7 +230,8 @@ class ColourJudge {
     if (!few || number == 0) return;
     ++out_.coarser;
     WrongColour w{cell_of_code(code), level, colour(level, code), {}, {}, 0};
-    for (size_t c = 0; c < 3; ++c) check(c, sum[c] / number, low[c] / number, high[c] / number, &w);
+    for (size_t c = 0; c < 3; ++c)
+      check(c, sum[c] / number, low[c] / number, high[c] / number, 0, &w);
     count(w, &out_.coarser_wrong);
   }
 
@@ -254,11 +256,13 @@ class ColourJudge {
                         uint32_t(cube.z));
   }
 
-  // Of linear light: a right colour before it is encoded is in low .. high.
-  void check(size_t channel, double mean, double low, double high, WrongColour* w) const {
+  // Of linear light: a right colour before it is encoded is in low .. high. `steps`: allowed beside
+  // codec and rounding.
+  void check(size_t channel, double mean, double low, double high, double steps,
+             WrongColour* w) const {
     const double expected = srgb_of_light(std::min(mean, 1.0));
     const double below = expected - srgb_of_light(low), above = srgb_of_light(high) - expected;
-    const double fixed = error_ + kRounding;
+    const double fixed = error_ + kRounding + steps;
     w->expected[channel] = expected;
     w->allowed[channel] = fixed + std::max(below, above);
     const double difference = channel_of(w->stored, channel) - expected;

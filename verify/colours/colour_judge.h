@@ -3,9 +3,9 @@
 // coarser cubes around these with the mean of the stored colours inside.
 //
 // A colour is wrong if a channel is off by more than the error of the file's codec, a step for
-// rounding and decoders, and the tolerance of the estimate. The scene is read once: the sorted
-// Morton codes of the drawn cubes are an octree, down which each triangle goes.
-// Shared with the builder: readers, the snap, the reader of the file. Not shared: clipping, texels,
+// rounding, two for decoders of JPEG, and the tolerance of the estimate. The scene is read once:
+// the sorted Morton codes of the drawn cubes are an octree, down which each triangle goes. Shared
+// with the builder: readers, the snap, the reader of the file. Not shared: clipping, texels,
 // sampling, sums, and the choice of levels of textures.
 #pragma once
 

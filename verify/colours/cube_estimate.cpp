@@ -167,9 +167,10 @@ void CubeEstimate::add(const JudgedTriangle& t, const LatticePoint& corner, int6
   is_touched_ = is_touched_ || !part.empty() ||
                 !cut_to_box(whole, Point(-kTouches), Point(1 + kTouches)).empty();
   if (part.size() < 3 || !placed.has_area()) return;
+  if (t.texture != nullptr) decoder_error_ = std::max(decoder_error_, t.texture->decoder_error());
   const double reach = placed.reach();
   PolygonSample sample;
-  WeightedColour moved{};
+  std::array<WeightedColour, 4> moved{};
   for (size_t k = 1; k + 1 < part.size(); ++k) {
     const Point p = part[k] - part[0], q = part[k + 1] - part[0];
     const double area = length_of(cross_product(p, q)) / 2;
@@ -187,10 +188,13 @@ void CubeEstimate::add(const JudgedTriangle& t, const LatticePoint& corner, int6
         const Point at = part[0] + (p * (row - column) + q * column) / double(n);
         const WeightedColour colour = placed.at(at, 0, 0);
         sample.add(at, placed.axis(), each, colour);
-        const WeightedColour there = reach > 0 ? placed.at(at, (2 * random.unit() - 1) * reach,
-                                                           (2 * random.unit() - 1) * reach)
-                                               : colour;
-        for (size_t c = 0; c < 4; ++c) moved[c] += each * there[c];
+        for (size_t d = 0; d < moved.size(); ++d) {
+          const WeightedColour there =
+              reach > 0 ? placed.at(at, (d % 2 == 0 ? reach : -reach) * random.unit(),
+                                    (d / 2 == 0 ? reach : -reach) * random.unit())
+                        : colour;
+          for (size_t c = 0; c < 4; ++c) moved[d][c] += each * there[c];
+        }
       }
     }
   }
@@ -205,7 +209,7 @@ void CubeEstimate::add(const JudgedTriangle& t, const LatticePoint& corner, int6
   }
   for (size_t c = 0; c < 4; ++c) {
     sum_[c] += sample.sum()[c];
-    moved_sum_[c] += moved[c];
+    for (size_t d = 0; d < moved.size(); ++d) moved_[d][c] += moved[d][c];
   }
 }
 
@@ -213,8 +217,10 @@ double CubeEstimate::tolerance(size_t channel) const {
   const double m = mean(channel), w = sum_[0];
   const double variance =
       variance_.channel[channel] - 2 * m * variance_.mixed[channel] + m * m * variance_.weight;
-  const double moved = moved_sum_[0] > kMinArea ? moved_sum_[channel + 1] / moved_sum_[0] - m : 1.0;
-  return kStandardErrors * std::sqrt(std::max(0.0, variance)) / w + std::abs(moved);
+  double moved = 0;
+  for (const WeightedColour& other : moved_)
+    moved = std::max(moved, other[0] > kMinArea ? std::abs(other[channel + 1] / other[0] - m) : 1);
+  return kStandardErrors * std::sqrt(std::max(0.0, variance)) / w + moved;
 }
 
 }  // namespace svdag

@@ -14,8 +14,9 @@
 //     that they, as the strata here, miss no linear change of colour: both variances are those that
 //     are left of it. Three standard errors are allowed, of both together;
 //   * where a cube spans four texels or more, as it is defined by a coarser level of the texture,
-//     whose texels reach up to half a cube beyond it. The mean is taken a second time with points
-//     moved by as much, and the difference is allowed.
+//     whose texels reach half a cube or more beyond it. The mean is taken four times more, with
+//     points moved by up to as much in each of the four directions, and the largest difference is
+//     allowed.
 // So the tolerance is next to nothing where a cube spans few texels or a smooth part of a texture,
 // and large in noise. Rejected: a fixed one, which either misses half a texel or fails foliage.
 #pragma once
@@ -52,6 +53,8 @@ class CubeEstimate {
   bool has_mean() const { return sum_[0] > kMinArea; }
   // Linear light of a channel, 0 .. 2; has_mean().
   double mean(size_t channel) const { return sum_[channel + 1] / sum_[0]; }
+  // Steps of sRGB that the decoders of the textures may differ by.
+  double decoder_error() const { return decoder_error_; }
   // Within which of the mean a right colour is.
   double tolerance(size_t channel) const;
 
@@ -64,8 +67,10 @@ class CubeEstimate {
   class PolygonSample;
 
   bool is_touched_ = false;
-  WeightedColour sum_{}, moved_sum_{};  // by area
-  Moments variance_;                    // of sum_
+  double decoder_error_ = 0;
+  WeightedColour sum_{};                   // by area
+  std::array<WeightedColour, 4> moved_{};  // of the four means of moved points
+  Moments variance_;                       // of sum_
 };
 
 }  // namespace svdag

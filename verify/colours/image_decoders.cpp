@@ -109,8 +109,7 @@ std::vector<uint8_t> judged_texels(const EncodedImage& image, int64_t width, int
         picture.rgba.resize(size_t(count));
         for (int64_t j = 0; j < height; ++j)
           picture.rows.push_back(&picture.rgba[size_t(4 * j * width)]);
-        const bool is_png = image.bytes.size() > 8 && png_sig_cmp(picture.bytes(), 0, 8) == 0;
-        if (is_png ? decode_png(&picture) : decode_jpeg(&picture))
+        if (is_jpeg(image) ? decode_jpeg(&picture) : decode_png(&picture))
           out.send(0, std::span<const uint8_t>(picture.rgba));
       },
       [&](const DecoderMessage& message) {

@@ -10,6 +10,10 @@
 
 namespace svdag {
 
+inline bool is_jpeg(const EncodedImage& image) {
+  return image.bytes.size() > 2 && image.bytes[0] == std::byte{0xff};
+}
+
 // The texels of an image of this size, row by row from the top: red, green, blue in sRGB, alpha. Of
 // 16 bits a channel, the upper eight. `sandbox`: in a process that can only compute, with a system
 // call filter. An image that is broken, or of another size, is an Error (kBadInput). Error (kUsage)

@@ -29,7 +29,9 @@ double srgb_of_light(double light) {
 JudgedTexture::JudgedTexture(const LinearImage& image, bool sandbox)
     : JudgedTexture(image.width(), image.height(),
                     judged_texels(image.encoded(), image.width(), image.height(), sandbox),
-                    image.encoded().threshold) {}
+                    image.encoded().threshold) {
+  if (is_jpeg(image.encoded())) decoder_error_ = 2;
+}
 
 WeightedColour JudgedTexture::at(const Paint& paint, double u, double v) const {
   static const std::array<double, 256> kLight = [] {

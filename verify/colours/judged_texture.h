@@ -28,6 +28,9 @@ class JudgedTexture {
   JudgedTexture(int64_t width, int64_t height, std::vector<uint8_t> rgba, double threshold)
       : width_(width), height_(height), rgba_(std::move(rgba)), threshold_(threshold) {}
 
+  // Steps of sRGB by which the builder's decoder may differ. A step of luma or chroma is up to 1.8
+  // of blue, and stb_image rounds a part of green down.
+  double decoder_error() const { return decoder_error_; }
   // At a point in texels, which is below kMaxTextureCoordinate.
   WeightedColour at(const Paint& paint, double u, double v) const;
 
@@ -35,6 +38,7 @@ class JudgedTexture {
   int64_t width_, height_;
   std::vector<uint8_t> rgba_;
   double threshold_;
+  double decoder_error_ = 0;
 };
 
 }  // namespace svdag
