@@ -41,7 +41,7 @@
 PACKAGES = g++ cmake ninja-build pkg-config libglm-dev nlohmann-json3-dev libcli11-dev \
   libxxhash-dev libzstd-dev libhwy-dev libsodium-dev zlib1g-dev libdraco-dev libopenmesh-dev libassimp-dev \
   libexpat1-dev libminizip-dev libmeshoptimizer-dev libstb-dev libboost-dev libcpp-httplib-dev \
-  libcgal-dev libembree-dev libopenvdb-dev libboost-iostreams-dev libnanovdb-dev python3-openvdb \
+  libcgal-dev libembree-dev libpng-dev libjpeg62-turbo-dev libopenvdb-dev libboost-iostreams-dev libnanovdb-dev python3-openvdb \
   libgtest-dev librapidcheck-dev dpkg-dev file man-db python3 python3-venv python3-numpy python3-xxhash valgrind
 FARM_PACKAGES = slurm-wlm munge
 PYTHON_PACKAGES = python3-dev

@@ -21,7 +21,7 @@ PHASES = ["builder/octree", "builder/overlap", "builder/overlap/kernels", "build
           "builder/descend", "builder/split", "builder/run", "builder/merge"]
 DAG = ["io/dag", "io/dag/colours", "io/dag/layers", "io/dag/compact", "io/dag/pack", "io/dag/graph"]
 BAKE = STREAMING + ["io", *DAG] + SCENE + PHASES + ["builder/cache", "builder"]
-VERIFY = ["verify/integrity", "verify/judge", "verify/sample", "verify/compare", "verify/view", "verify/report"]
+VERIFY = ["verify/integrity", "verify/judge", "verify/sample", "verify/compare", "verify/colours", "verify/view", "verify/report"]
 TRACE = ["verify/trace/kernel", "verify/trace", "verify/trace/judge", "verify/trace/program"]
 ALLOWED = {
     "streaming": [],
@@ -78,6 +78,8 @@ ALLOWED = {
     "verify/judge": STREAMING + ["io", *DAG, "io/scene/cutouts"],
     "verify/sample": STREAMING + ["io", *DAG, "io/scene/cutouts", "io/scene", "verify/integrity", "verify/judge"],
     "verify/compare": STREAMING + ["io", *DAG, "io/formats", "verify/judge", "verify/sample"],
+    "verify/colours": STREAMING + ["io", *DAG, "io/scene/cutouts", "io/scene/colours", "io/scene/decoders", "io/scene", "verify/judge",
+                                   "verify/sample"],
     "verify/view": STREAMING + ["io", *DAG],
     "verify/report": STREAMING + ["io", *DAG, "verify/integrity", "verify/view"],
     "verify/trace/kernel": STREAMING + [*DAG],
@@ -141,6 +143,7 @@ LIBRARIES = {
     r"draco/": r"io/scene/decoders/draco\.cpp|tests/.*",
     r"stb_?|stb/": r"verify/trace/image\.cpp|io/scene/decoders/image\.cpp|tests/(io/scene/decoders/image_test|scenes/textures)\.cpp",
     r"stxxl/": r"tests/bench/peers/stxxl\.cpp",
+    r"png\.h|jpeglib\.h": r"verify/colours/image_decoders\.cpp",
     r"CGAL/": r"verify/judge/judge_cgal\.cpp|tests/bench/peers/cgal\.cpp",
     r"openvdb/": r"verify/judge/judge_vdb\.cpp|io/formats/vdb/vdb_trees\.h|io/openvdb_grids\.h",
     r"nanovdb/": r"io/formats/vdb/nvdb\.cpp|tests/io/formats/vdb/nvdb_test\.cpp",

@@ -81,7 +81,7 @@ void describe_options(const ContentOptions& options, std::ostream* out) {
 void describe_scene(const SceneConfig& scene, std::ostream* out) {
   [[maybe_unused]] const auto& [paths, names, skip_invalid, sandbox, allow_unmatched, allow_outside,
                                 transform, up, scale, hidden, time, frames, animation, cut_outs,
-                                colours, paint, only] = scene;
+                                colours, paint, keep_images, only] = scene;
   *out << "included parts: " << list(names.include) << '\n';
   *out << "excluded parts: " << list(names.exclude) << '\n';
   if (const Affine to_world = scene.to_world(); to_world != Affine())

@@ -163,7 +163,7 @@ Scene::Scene(SceneConfig config, MemoryBudget* budget, const SpillSpace* spill)
       spill_(spill),
       images_(budget, config_.sandbox),
       alpha_(budget, config_.sandbox),
-      paints_(budget, config_.sandbox) {}
+      paints_(budget, config_.sandbox, config_.keep_images) {}
 
 const File& Scene::content_of(const File& packed) const {
   if (!is_gzip(packed)) return packed;

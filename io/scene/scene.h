@@ -40,6 +40,7 @@ struct SceneConfig {
   bool cut_outs = true;             // what is transparent of materials is cut out
   bool colours = false;             // of materials are read, and the files that hold them
   bool paint = false;               // with `colours`: those of points, too
+  bool keep_images = false;         // for judges, with `paint`: LinearImage::encoded()
   // For judges: if given, only the triangles of the part of this kind and name.
   std::optional<std::pair<PartKind, std::string>> only = {};
 

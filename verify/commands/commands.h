@@ -44,6 +44,20 @@ int run(const MeshConfig& config);
 // (verify/compare/distance_bounds.h).
 int run_distance_bounds(const MeshConfig& config, const DagFile& file);
 
+// svdag-verify colours FILE SCENE...: computes colours of the scene again, and compares.
+struct ColoursConfig {
+  CommonConfig common;
+  std::string file;
+  SceneConfig scene;
+  uint64_t sample = 10'000;  // number of cubes to draw
+  uint64_t seed = 1;
+  uint64_t memory = 0;  // budget in bytes; 0: half of the machine's
+};
+
+// Returns kOk, or kDiffers if a colour is wrong, or the grid does not match the scene. Error:
+// kBadInput if drawn cubes have no triangle, kUsage if the file has no colours.
+int run(const ColoursConfig& config);
+
 // svdag-verify diff A B: counts and lists the voxels that only one of two DAGs has.
 struct DiffConfig {
   CommonConfig common;
@@ -141,7 +155,7 @@ struct ViewConfig {
 
 int run(const ViewConfig& config);
 
-using VerifyCommand = std::variant<CheckConfig, MeshConfig, DiffConfig, VdbConfig, TraceConfig,
-                                   RenderCommandConfig, ReportConfig, ViewConfig>;
+using VerifyCommand = std::variant<CheckConfig, MeshConfig, ColoursConfig, DiffConfig, VdbConfig,
+                                   TraceConfig, RenderCommandConfig, ReportConfig, ViewConfig>;
 
 }  // namespace svdag

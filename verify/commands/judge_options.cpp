@@ -1,4 +1,4 @@
-// The commands that judge: check, mesh, diff, vdb and trace.
+// The commands that judge: check, mesh, colours, diff, vdb and trace.
 #include <CLI/CLI.hpp>
 
 #include "io/help/command_line.h"
@@ -41,6 +41,22 @@ void add_mesh(CLI::App* app, VerifyCommand* parsed) {
   add_common(command, &config->common, true);
   add_examples(command, {"svdag-verify mesh sponza.svdag sponza.glb",
                          "svdag-verify mesh --sample 100000 city.svdag city.ply --json"});
+  command->callback([=] { *parsed = *config; });
+}
+
+void add_colours(CLI::App* app, VerifyCommand* parsed) {
+  auto config = std::make_shared<ColoursConfig>();
+  CLI::App* command = app->add_subcommand(
+      "colours", "Compute colours of the scene again, by other means, and compare");
+  add_file(command, &config->file);
+  add_scene(command, &config->scene);
+  add_count(command, "--sample", &config->sample,
+            "How many of the cubes to draw and compare (default 10,000; all if there are fewer)");
+  takes_whole_number(command->add_option("--seed", config->seed, "Seed of the sample (default 1)"))
+      ->type_name("N");
+  add_memory(command, &config->memory);
+  add_common(command, &config->common, true);
+  add_examples(command, {"svdag-verify colours painted.svdag scene.glb"});
   command->callback([=] { *parsed = *config; });
 }
 

@@ -17,6 +17,7 @@ int run_judge(int argc, char** argv) {
   VerifyCommand command;
   add_check(&app, &command);
   add_mesh(&app, &command);
+  add_colours(&app, &command);
   add_diff(&app, &command);
   add_vdb(&app, &command);
   add_trace(&app, &command);

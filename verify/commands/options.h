@@ -19,6 +19,7 @@ namespace svdag {
 // Each adds a command to the program, and sets *parsed to its struct when the command is parsed.
 void add_check(CLI::App* app, VerifyCommand* parsed);
 void add_mesh(CLI::App* app, VerifyCommand* parsed);
+void add_colours(CLI::App* app, VerifyCommand* parsed);
 void add_diff(CLI::App* app, VerifyCommand* parsed);
 void add_vdb(CLI::App* app, VerifyCommand* parsed);
 void add_trace(CLI::App* app, VerifyCommand* parsed);

@@ -76,7 +76,7 @@ class ClippedTriangle {
         return area_;
       case Measure::kLongestEdge:
         return length_of(edge_.to - edge_.from);
-      case Measure::kTriangle:
+      case Measure::kNearTriangle:
         return meets_selection_ ? 1 : 0;
     }
     return 0;
@@ -87,7 +87,8 @@ class ClippedTriangle {
     if (measure == Measure::kLongestEdge)
       return brick(edge_.from + (edge_.to - edge_.from) * random.unit());
     Point point = point_of_polygon(random);
-    for (int a = 0; measure == Measure::kTriangle && a < 3; ++a) point[a] += 2 * random.unit() - 1;
+    for (int a = 0; measure == Measure::kNearTriangle && a < 3; ++a)
+      point[a] += 2 * random.unit() - 1;
     return brick(point);
   }
 

@@ -38,7 +38,7 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-enum class Measure { kArea, kLongestEdge, kTriangle };
+enum class Measure { kArea, kLongestEdge, kNearTriangle };
 constexpr size_t kMeasures = 3;
 
 struct SceneDraw {

@@ -46,14 +46,14 @@ void append_near_part(const LatticeTriangle& triangle, const VoxelBox& window, i
     const Point p = Point(corner - first_centre) * std::ldexp(1.0, -fraction);
     for (int a = 0; a < 3; ++a) {
       const double side = double(window.max[a] - window.min[a]);
-      far = far || p[a] < -4 * kCutMargin || p[a] > side + 4 * kCutMargin;
+      far = far || p[a] < -4 * kWindowMargin || p[a] > side + 4 * kWindowMargin;
       *reach = std::max(*reach, std::abs(p[a]));
     }
     polygon.push_back(p);
   }
   if (far)
-    polygon = cut_to_box(std::move(polygon), Point(double(-kCutMargin)),
-                         Point(window.max - window.min + kCutMargin));
+    polygon = cut_to_box(std::move(polygon), Point(double(-kWindowMargin)),
+                         Point(window.max - window.min + kWindowMargin));
   for (size_t i = 2; i < polygon.size(); ++i)
     out->push_back({{polygon[0], polygon[i - 1], polygon[i]}});
 }

@@ -5,7 +5,7 @@
 // Hodgman 1974); otherwise a wall of a 64K^3 grid would cost its judge billions of voxels. Cutting
 // moves points by rounding only: a point of the result is within 2^-48 X of the triangle, and vice
 // versa inside the window, X being the largest coordinate of the triangle. The edges that the cut
-// adds are kCutMargin voxels away from the window, farther than any query.
+// adds are kWindowMargin voxels away from the window, farther than any query.
 #pragma once
 
 #include <vector>
@@ -14,7 +14,7 @@
 
 namespace svdag {
 
-constexpr int64_t kCutMargin = 4;
+constexpr int64_t kWindowMargin = 4;
 
 // The part of a convex polygon in the closed box; may be a segment, a point, or empty.
 using Polygon = std::vector<Point>;

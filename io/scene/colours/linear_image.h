@@ -11,9 +11,14 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "io/scene/cutouts/alpha_image.h"
 #include "streaming/memory/memory_budget.h"
 
 namespace svdag {
@@ -26,6 +31,15 @@ uint16_t light16(double light) noexcept;
 uint16_t light16_of_srgb(double value) noexcept;
 // Of a code of sRGB.
 uint16_t light16_of_code(uint8_t code) noexcept;
+
+// An image as its file has it, for a judge that decodes it by other means.
+struct EncodedImage {
+  std::string name;              // for errors
+  std::vector<std::byte> bytes;  // PNG or JPEG
+  double threshold = 0;          // texels with an alpha below it are cut out
+  std::shared_ptr<const AlphaImage> mask;  // its alpha counts instead, at the centres of texels
+  MemoryBudget::Reservation memory;
+};
 
 class LinearImage {
  public:
@@ -48,6 +62,9 @@ class LinearImage {
   const std::vector<Level>& levels() const { return levels_; }
   // Whether texels are cut out.
   bool has_holes() const { return has_holes_; }
+  // Empty, unless the images of the scene are kept (SceneConfig::keep_images).
+  const EncodedImage& encoded() const { return encoded_; }
+  void keep(EncodedImage encoded) { encoded_ = std::move(encoded); }
   // Most bytes of an image of so many texels.
   static uint64_t bytes(uint64_t texels) { return 3 * sizeof(Texel) / 2 * texels + 512; }
 
@@ -55,6 +72,7 @@ class LinearImage {
   MemoryBudget::Reservation memory_;
   std::vector<Level> levels_;  // the last has one texel
   bool has_holes_ = false;
+  EncodedImage encoded_;
 };
 
 }  // namespace svdag

@@ -29,13 +29,15 @@ std::shared_ptr<const LinearImage> LinearImages::image(const std::string& name, 
   if (!is_new) return known->second;
   try {
     MemoryBudget::Reservation memory;
-    const std::vector<std::byte> bytes = read(&memory);
+    std::vector<std::byte> bytes = read(&memory);
     ColourTexels texels = colours_of_image({bytes, name, sandbox_}, budget_);
     const auto decoded = budget_->reserve(texels.rgba.size(), "a decoded texture");
     if (mask) set_alpha(*mask, &texels);
     auto held = budget_->reserve(LinearImage::bytes(texels.rgba.size() / 4), "textures");
-    known->second = std::make_shared<LinearImage>(texels.width, texels.height, texels.rgba,
-                                                  threshold, std::move(held));
+    const auto image = std::make_shared<LinearImage>(texels.width, texels.height, texels.rgba,
+                                                     threshold, std::move(held));
+    if (keep_) image->keep({name, std::move(bytes), threshold, mask, std::move(memory)});
+    known->second = image;
   } catch (const Error& error) {
     if (error.code() != ExitCode::kBadInput) throw;
     note(error.what());

@@ -19,7 +19,9 @@ class LinearImages {
   // Returns the bytes of an image, reserved in *memory.
   using Read = std::function<std::vector<std::byte>(MemoryBudget::Reservation* memory)>;
 
-  LinearImages(MemoryBudget* budget, bool sandbox) : budget_(budget), sandbox_(sandbox) {}
+  // `keep`: with LinearImage::encoded().
+  LinearImages(MemoryBudget* budget, bool sandbox, bool keep)
+      : budget_(budget), sandbox_(sandbox), keep_(keep) {}
 
   // The image `name`, which is unique to it, with the texels below `threshold` cut out; read() is
   // called the first time. Null, and a note, for one that cannot be read: the triangles have the
@@ -37,7 +39,7 @@ class LinearImages {
 
  private:
   MemoryBudget* budget_;
-  bool sandbox_;
+  bool sandbox_, keep_;
   using Key = std::tuple<std::string, double, std::shared_ptr<const AlphaImage>>;
   std::map<Key, std::shared_ptr<const LinearImage>> images_;
   std::vector<std::string> notes_;

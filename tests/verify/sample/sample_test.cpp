@@ -155,7 +155,7 @@ TEST_F(SampledScene, WrongDrawsEstimateTheShareOfAreaAndLength) {
   };
   EXPECT_NEAR(share(Measure::kArea), 0.25, 0.05);
   EXPECT_NEAR(share(Measure::kLongestEdge), std::sqrt(2) / (std::sqrt(2) + std::sqrt(10)), 0.05);
-  EXPECT_NEAR(share(Measure::kTriangle), 0.5, 0.05);
+  EXPECT_NEAR(share(Measure::kNearTriangle), 0.5, 0.05);
 }
 
 // A needle has no area and is one triangle of many: only the draw by length finds it.
