@@ -10,9 +10,9 @@
 // A right colour differs from this mean
 //   * by the error of the mean: variance / points;
 //   * by the error of the few points that define the colour of a file, four for a large part of a
-//     triangle and one for a small one: variance / 4, or the variance. These points lie evenly, so
-//     that they, as the strata here, miss no linear change of colour: both variances are those that
-//     are left of it. Three standard errors are allowed, of both together;
+//     triangle and one for a small one: variance / 4, or the variance. These points, and the strata
+//     here, lie evenly and miss no linear change of colour: the variance is what is left of it.
+//     Three standard errors are allowed, of both together;
 //   * where a cube spans four texels or more, as it is defined by a coarser level of the texture,
 //     whose texels reach half a cube or more beyond it. The mean is taken four times more, with
 //     points moved by up to as much in each of the four directions, and the largest difference is
