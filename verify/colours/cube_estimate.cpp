@@ -122,8 +122,8 @@ class CubeEstimate::PolygonSample {
 
   // Of the colour as points of the definition give it, and of sum() / area(). The linear part of
   // what they have is left out for the former, and for the latter remains within a stratum.
-  Moments variance() const {
-    const double few = area() < kSmallPart ? 1 : 4;
+  Moments variance(bool is_summed) const {
+    const double few = is_summed ? INFINITY : area() < kSmallPart ? 1 : 4;
     const double drawn = 1 / points();
     return moments(true, 1 / few + drawn, moments(false, 4 * drawn * drawn, {}));
   }
@@ -195,6 +195,10 @@ void CubeEstimate::add(const JudgedTriangle& t, const LatticePoint& corner, int6
         const Point at = part[0] + (p * (row - column) + q * column) / double(n);
         const WeightedColour colour = placed.at(at, 0, 0);
         sample.add(at, placed.axis(), each, colour);
+        for (size_t c = 0; c < 3 && colour[0] > 0; ++c) {
+          low_[c] = std::min(low_[c], colour[c + 1] / colour[0]);
+          high_[c] = std::max(high_[c], colour[c + 1] / colour[0]);
+        }
         for (size_t d = 0; d < moved.size(); ++d) {
           const WeightedColour there =
               reach > 0 ? placed.at(at, (d % 2 == 0 ? reach : -reach) * random.unit(),
@@ -206,7 +210,8 @@ void CubeEstimate::add(const JudgedTriangle& t, const LatticePoint& corner, int6
     }
   }
   if (!(sample.area() > 0)) return;
-  const Moments one = sample.variance();
+  const bool is_summed = t.texture == nullptr || (t.paint->nearest && reach == 0);
+  const Moments one = sample.variance(is_summed);
   const double share = sample.area() * sample.area();
   variance_.weight += share * one.weight;
   for (size_t c = 0; c < 3; ++c) {
@@ -220,13 +225,18 @@ void CubeEstimate::add(const JudgedTriangle& t, const LatticePoint& corner, int6
 }
 
 double CubeEstimate::tolerance(size_t channel) const {
-  const double m = mean(channel), w = sum_[0];
+  const double m = mean(channel);
   const double variance =
       variance_.channel[channel] - 2 * m * variance_.mixed[channel] + m * m * variance_.weight;
+  const double error = kStandardErrors * std::sqrt(std::max(0.0, variance));
+  // The least weight that the few points may have.
+  const double weight = sum_[0] - kStandardErrors * std::sqrt(variance_.weight);
+  const double range = std::max(m - low_[channel], high_[channel] - m);
+  const double few = weight > 0 ? error / weight : range;
   double moved = 0;
   for (const WeightedColour& other : moved_)
     moved = std::max(moved, other[0] > kMinArea ? std::abs(other[channel + 1] / other[0] - m) : 1);
-  return kStandardErrors * std::sqrt(std::max(0.0, variance)) / w + moved;
+  return few + moved;
 }
 
 }  // namespace svdag
