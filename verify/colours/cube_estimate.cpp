@@ -120,8 +120,17 @@ class CubeEstimate::PolygonSample {
   double points() const { return double(points_); }
   const std::array<double, 4>& sum() const { return xy_[0]; }
 
-  // Of a point, without what is linear in its position.
-  Moments variance() const {
+  // Of the colour as points of the definition give it, and of sum() / area(). The linear part of
+  // what they have is left out for the former, and for the latter remains within a stratum.
+  Moments variance(bool is_summed) const {
+    const double few = is_summed ? INFINITY : area() < kSmallPart ? 1 : 4;
+    const double drawn = 1 / points();
+    return moments(true, 1 / few + drawn, moments(false, 4 * drawn * drawn, {}));
+  }
+
+ private:
+  // Adds `factor` times the moments of a point, `is_straightened`: without what is linear.
+  Moments moments(bool is_straightened, double factor, Moments sum) const {
     const double all = area();
     // Covariances of position, and of position and values.
     const auto cov_xx = [&](size_t a, size_t b) {
@@ -132,7 +141,7 @@ class CubeEstimate::PolygonSample {
     };
     const double pp = cov_xx(1, 1), qq = cov_xx(2, 2), pq = cov_xx(1, 2);
     const double det = pp * qq - pq * pq;
-    const bool has_slope = points_ > 8 && det > 1e-6 * pp * qq && det > 0;
+    const bool has_slope = is_straightened && points_ > 8 && det > 1e-6 * pp * qq && det > 0;
     const auto explained = [&](size_t c, size_t d) {
       if (!has_slope) return 0.0;
       const double pc = cov_xy(1, c), qc = cov_xy(2, c), pd = cov_xy(1, d), qd = cov_xy(2, d);
@@ -143,16 +152,14 @@ class CubeEstimate::PolygonSample {
     const auto left = [&](double product, size_t c, size_t d) {
       return (product / all - xy_[0][c] * xy_[0][d] / (all * all) - explained(c, d)) * scale;
     };
-    Moments moments;
-    moments.weight = std::max(0.0, left(own_[0], 0, 0));
+    sum.weight += factor * std::max(0.0, left(own_[0], 0, 0));
     for (size_t c = 0; c < 3; ++c) {
-      moments.mixed[c] = left(with_weight_[c + 1], 0, c + 1);
-      moments.channel[c] = std::max(0.0, left(own_[c + 1], c + 1, c + 1));
+      sum.mixed[c] += factor * left(with_weight_[c + 1], 0, c + 1);
+      sum.channel[c] += factor * std::max(0.0, left(own_[c + 1], c + 1, c + 1));
     }
-    return moments;
+    return sum;
   }
 
- private:
   std::array<std::array<double, 3>, 3> xx_{};
   std::array<std::array<double, 4>, 3> xy_{};
   std::array<double, 4> own_{}, with_weight_{};
@@ -176,7 +183,7 @@ void CubeEstimate::add(const JudgedTriangle& t, const LatticePoint& corner, int6
     const double area = length_of(cross_product(p, q)) / 2;
     if (!(area > 0)) continue;
     // n rows of small triangles, all equal: 2 i + 1 in row i.
-    const int n = std::clamp(int(std::ceil(std::sqrt(kPointsPerFace * area))), 2, 64);
+    const int n = std::clamp(int(std::ceil(std::sqrt(kPointsPerFace * area))), 4, 64);
     const double each = area / (n * n);
     for (int i = 0; i < n; ++i) {
       for (int j = 0; j < 2 * i + 1; ++j) {
@@ -188,6 +195,10 @@ void CubeEstimate::add(const JudgedTriangle& t, const LatticePoint& corner, int6
         const Point at = part[0] + (p * (row - column) + q * column) / double(n);
         const WeightedColour colour = placed.at(at, 0, 0);
         sample.add(at, placed.axis(), each, colour);
+        for (size_t c = 0; c < 3 && colour[0] > 0; ++c) {
+          low_[c] = std::min(low_[c], colour[c + 1] / colour[0]);
+          high_[c] = std::max(high_[c], colour[c + 1] / colour[0]);
+        }
         for (size_t d = 0; d < moved.size(); ++d) {
           const WeightedColour there =
               reach > 0 ? placed.at(at, (d % 2 == 0 ? reach : -reach) * random.unit(),
@@ -199,9 +210,9 @@ void CubeEstimate::add(const JudgedTriangle& t, const LatticePoint& corner, int6
     }
   }
   if (!(sample.area() > 0)) return;
-  const Moments one = sample.variance();
-  const double definition = sample.area() < kSmallPart ? 1 : 4;
-  const double share = sample.area() * sample.area() * (1 / sample.points() + 1 / definition);
+  const bool is_summed = t.texture == nullptr || (t.paint->nearest && reach == 0);
+  const Moments one = sample.variance(is_summed);
+  const double share = sample.area() * sample.area();
   variance_.weight += share * one.weight;
   for (size_t c = 0; c < 3; ++c) {
     variance_.mixed[c] += share * one.mixed[c];
@@ -214,13 +225,18 @@ void CubeEstimate::add(const JudgedTriangle& t, const LatticePoint& corner, int6
 }
 
 double CubeEstimate::tolerance(size_t channel) const {
-  const double m = mean(channel), w = sum_[0];
+  const double m = mean(channel);
   const double variance =
       variance_.channel[channel] - 2 * m * variance_.mixed[channel] + m * m * variance_.weight;
+  const double error = kStandardErrors * std::sqrt(std::max(0.0, variance));
+  // The least weight that the few points may have.
+  const double weight = sum_[0] - kStandardErrors * std::sqrt(variance_.weight);
+  const double range = std::max(m - low_[channel], high_[channel] - m);
+  const double few = weight > 0 ? error / weight : range;
   double moved = 0;
   for (const WeightedColour& other : moved_)
     moved = std::max(moved, other[0] > kMinArea ? std::abs(other[channel + 1] / other[0] - m) : 1);
-  return kStandardErrors * std::sqrt(std::max(0.0, variance)) / w + moved;
+  return few + moved;
 }
 
 }  // namespace svdag

@@ -10,13 +10,15 @@
 // A right colour differs from this mean
 //   * by the error of the mean: variance / points;
 //   * by the error of the few points that define the colour of a file, four for a large part of a
-//     triangle and one for a small one: variance / 4, or the variance. These points lie evenly, so
-//     that they, as the strata here, miss no linear change of colour: both variances are those that
-//     are left of it. Three standard errors are allowed, of both together;
+//     triangle and one for a small one: variance / 4, or the variance. These points, and the strata
+//     here, lie evenly and miss no linear change of colour: the variance is what is left of it.
+//     Three standard errors are allowed, of both together. Where so much is transparent that the
+//     few points may miss what is opaque, every colour of an opaque point is allowed;
 //   * where a cube spans four texels or more, as it is defined by a coarser level of the texture,
 //     whose texels reach half a cube or more beyond it. The mean is taken four times more, with
 //     points moved by up to as much in each of the four directions, and the largest difference is
 //     allowed.
+// Texels that are squares are summed exactly where a cube spans less than two.
 // So the tolerance is next to nothing where a cube spans few texels or a smooth part of a texture,
 // and large in noise. Rejected: a fixed one, which either misses half a texel or fails foliage.
 #pragma once
@@ -68,9 +70,10 @@ class CubeEstimate {
 
   bool is_touched_ = false;
   double decoder_error_ = 0;
-  WeightedColour sum_{};                   // by area
-  std::array<WeightedColour, 4> moved_{};  // of the four means of moved points
-  Moments variance_;                       // of sum_
+  WeightedColour sum_{};                         // by area
+  std::array<double, 3> low_{1, 1, 1}, high_{};  // of opaque points
+  std::array<WeightedColour, 4> moved_{};        // of the four means of moved points
+  Moments variance_;                             // of sum_
 };
 
 }  // namespace svdag
