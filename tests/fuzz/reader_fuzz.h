@@ -26,7 +26,7 @@ inline void fuzz_reading(MeshReader reader, const File& file, uint64_t limit, co
     AlphaImages alpha(&budget, false);
     options.alpha = &alpha;
     ImageMeans means(&budget, false);
-    LinearImages images(&budget, false);
+    LinearImages images(&budget, false, false);
     if (is_painted) options.images = &means;
     if (is_painted) options.paints = &images;
     read_meshes(reader, file, options, [](const TriangleBatch& batch) {

@@ -100,7 +100,8 @@ class GltfReader {
       }
       const GltfCutOut* cut = cut_of(primitive, material);
       if (material && cut == nullptr) count_transparent(*material);
-      if (cut != nullptr && has_vertex_alpha(document_, primitive, &buffers_))
+      if (cut != nullptr && !draco_.holds(primitive) &&
+          has_vertex_alpha(document_, primitive, &buffers_))
         left_out_.add(Omission::kVertexAlpha);
       if (cut != nullptr && cut->cut.is_opaque()) cut = nullptr;
       const GltfPaint* const paint = paint_of(primitive, material, cut);
@@ -128,9 +129,9 @@ class GltfReader {
     return document_.element("materials", index);
   }
 
-  // What cuts the primitive's material; null: it is whole. Coordinates in Draco are not read.
+  // What cuts the primitive's material; null: it is whole.
   const GltfCutOut* cut_of(const JsonObject& primitive, const std::optional<JsonObject>& material) {
-    if (options_.alpha == nullptr || !material || draco_.holds(primitive)) return nullptr;
+    if (options_.alpha == nullptr || !material) return nullptr;
     const auto [at, is_new] = cuts_.try_emplace(primitive.whole_number("material"));
     auto& [cut, without_texture] = at->second;
     if (is_new && is_cut_out(*material, *options_.names)) {
@@ -140,7 +141,7 @@ class GltfReader {
       without_texture->cut.image = options_.alpha->opaque();
     }
     if (!cut) return nullptr;
-    const bool has_points = has_texture_points(cut->use, primitive.object("attributes"));
+    const bool has_points = has_texture_points(cut->use, draco_.attributes_of(primitive));
     return has_points ? &*cut : &*without_texture;
   }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "io/scene/gltf/gltf_cut_out.h"
 #include "streaming/error.h"
 
 namespace svdag {
@@ -30,6 +31,14 @@ JsonObject DracoPrimitives::attributes_of(const JsonObject& primitive) const {
   return primitive.extension(kDraco)->object("attributes");
 }
 
+bool DracoPrimitives::has_texture(const JsonObject& primitive) const {
+  if (options_.paints != nullptr) return true;
+  if (options_.alpha == nullptr || !primitive.has("material")) return false;
+  const uint64_t material = primitive.whole_number("material");
+  return material < document_.root().array("materials").size() &&
+         is_cut_out(document_.element("materials", material), *options_.names);
+}
+
 DracoPrimitives::Packed DracoPrimitives::pack(const nlohmann::json& value) {
   const JsonObject primitive(value, document_.file->path());
   const JsonObject draco = *primitive.extension(kDraco);
@@ -41,10 +50,11 @@ DracoPrimitives::Packed DracoPrimitives::pack(const nlohmann::json& value) {
   packed.bytes = buffers_.view_bytes(draco.whole_number("bufferView"), &packed.memory);
   packed.source = {
       packed.bytes, ids.whole_number("POSITION"), accessor_of("POSITION").flag("normalized"), {}};
-  if (options_.paints == nullptr) return packed;
+  if (!has_texture(primitive)) return packed;
   for (const std::string& name : ids.names()) {
     const bool is_colour = name == "COLOR_0";
     if ((!is_colour && !name.starts_with("TEXCOORD_")) || !accessors.has(name.c_str())) continue;
+    if (is_colour && options_.paints == nullptr) continue;
     const uint64_t components = is_colour && accessor_of("COLOR_0").text("type") == "VEC4" ? 4
                                 : is_colour                                                ? 3
                                                                                            : 2;

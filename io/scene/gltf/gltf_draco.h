@@ -19,7 +19,8 @@ namespace svdag {
 
 struct DracoPrimitive {
   Accessor positions, indices;
-  std::map<std::string, Accessor> attributes;  // that colour, if colours of points are wanted
+  // That colour, if colours of points are wanted, and the places in the textures that cut out.
+  std::map<std::string, Accessor> attributes;
   double step = 0;  // distance of the quantised positions, 0 if they are not
 };
 
@@ -51,6 +52,8 @@ class DracoPrimitives {
   };
 
   bool has_data(uint64_t accessor) const;
+  // Whether its points have places in a texture that is followed.
+  bool has_texture(const JsonObject& primitive) const;
   Packed pack(const nlohmann::json& primitive);
   std::vector<Packed> pack_from(const nlohmann::json& primitive);
   void unpack(const std::vector<Packed>& packed);

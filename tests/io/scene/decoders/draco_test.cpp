@@ -199,9 +199,11 @@ TEST_P(DracoMethods, TextureCoordinatesAndColoursOfVerticesAreDecodedIfTheyAreWa
   const auto read = [&](bool coloured, const TriangleSink& sink) {
     MemoryBudget budget;
     ImageMeans means(&budget, false);
-    LinearImages images(&budget, false);
+    LinearImages images(&budget, false, false);
+    AlphaImages alpha(&budget, false);
     const NameFilter names;
     ReadOptions options{&names, false, &budget};
+    options.alpha = &alpha;
     if (coloured) options.images = &means;
     if (coloured) options.paints = &images;
     const File file = File::open_read(folder.write("a.glb", gltf.glb()));
@@ -235,6 +237,18 @@ TEST_P(DracoMethods, TextureCoordinatesAndColoursOfVerticesAreDecodedIfTheyAreWa
   });
   EXPECT_EQ(painted, plain);
   EXPECT_EQ(plain.size(), size_t(6 * n * n));
+  gltf.json["materials"][0]["alphaMode"] = "MASK";
+  gltf.json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"][3] = 0.25;
+  for (const bool coloured : {false, true}) {
+    size_t cut = 0;
+    read(coloured, [&](const TriangleBatch& batch) {
+      ASSERT_NE(batch.cut, nullptr);
+      EXPECT_TRUE(batch.cut->is_transparent());
+      EXPECT_EQ(batch.texture.size(), batch.triangles.size());
+      cut += batch.triangles.size();
+    });
+    EXPECT_EQ(cut, size_t(2 * n * n));
+  }
   gltf.json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"]["attributes"]
            ["TEXCOORD_0"] = 7;
   EXPECT_SVDAG_ERROR(read(true, [](const TriangleBatch&) {}), ExitCode::kBadInput,

@@ -33,7 +33,7 @@ TEST(ObjPaint, VerticesOnDiskMakeNoDifference) {
   const auto painted = [&](const SpillSpace* spill) {
     MemoryBudget budget;
     ImageMeans means(&budget, false);
-    LinearImages images(&budget, false);
+    LinearImages images(&budget, false, false);
     NameFilter names;
     ReadOptions options{&names, false, &budget, spill};
     options.images = &means;
