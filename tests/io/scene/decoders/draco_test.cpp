@@ -13,6 +13,7 @@
 #include <random>
 
 #include "io/scene/colours/linear_images.h"
+#include "io/scene/cutouts/alpha_images.h"
 #include "io/scene/decoders/image.h"
 #include "tests/expect_error.h"
 #include "tests/io/scene/gltf/gltf_builder.h"
