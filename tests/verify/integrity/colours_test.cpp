@@ -2,6 +2,7 @@
 // entries, and the geometry's own hash.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "io/dag/colours/dag_colours.h"
@@ -65,6 +66,37 @@ TEST_F(ColourIntegrity, AnotherColourIsFoundByTheHash) {
   const Header h = header_of(bytes);
   bytes[h.directory_offset + h.directory_bytes - 8] ^= 1;  // of the last, uniform, entry
   EXPECT_EQ(defects_of(bytes), std::vector<std::string>{"the colours do not match their hash"});
+}
+
+TEST_F(ColourIntegrity, AWrongMeanIsFound) {
+  std::string bytes = painted(folder_.file("plain.svdag"));
+  Header h = header_of(bytes);
+  auto* const entries = reinterpret_cast<ColourEntry*>(bytes.data() + h.directory_offset);
+  // The first entry is the mean of the whole grid.
+  ASSERT_EQ(entries[0].value & kChunkEntry, 0u);
+  ASSERT_EQ(entries[1].first, 1u);
+  const auto with_mean = [&](uint64_t mean) {
+    entries[0].value = mean;
+    Hasher128 hasher;
+    hasher.update(std::as_bytes(std::span(&h.colour_count, 1)));
+    hasher.update(std::as_bytes(std::span(&h.colour_level, 1)));
+    hasher.update(std::as_bytes(std::span(&h.colour_error, 1)));
+    const auto part = [&](uint64_t offset, uint64_t size) {
+      hasher.update(std::as_bytes(std::span(bytes)).subspan(size_t(offset), size_t(size)));
+    };
+    part(h.chunks_offset, h.chunks_bytes);
+    part(h.directory_offset, h.directory_bytes);
+    const Hash128 hash = hasher.digest();
+    std::ranges::copy(hash, h.colour_hash);
+    std::memcpy(bytes.data(), &h, sizeof h);
+    return defects_of(bytes);
+  };
+  const std::vector<std::string> wrong = {
+      "the colours of 1 coarser cube are not the mean of those inside"};
+  const uint64_t mean = entries[0].value;
+  EXPECT_EQ(with_mean(mean), std::vector<std::string>());
+  EXPECT_EQ(with_mean(mean ^ 0x80), wrong);
+  EXPECT_EQ(with_mean(kNoColour), wrong);
 }
 
 TEST_F(ColourIntegrity, EntriesOfNoCubeAreFound) {
