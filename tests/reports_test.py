@@ -23,6 +23,7 @@ svdag build city.ply -o half.run -r 64 --part 1/2
 svdag export thin.svdag -o thin.vdb
 svdag build city.ply scan.ply -o layers.svdag -r 64 --layers file --colours --report layers.json
 svdag build city.ply scan.ply -o layers.run -r 64 --layers file --part 1/2
+svdag build red.obj -o red.svdag -r 8 --colours
 svdag batch list.json --keep-going --report list.report.json
 svdag batch list.json --keep-going --report list.report.json"""
 LIST = [{"scene": "city.ply", "output": "a.svdag", "resolution": "64"},
@@ -43,6 +44,7 @@ svdag-verify check city.svdag
 svdag-verify mesh city.svdag city.ply --sample 1000
 svdag-verify mesh solid.svdag scan.ply --sample 100
 svdag-verify mesh city.svdag scan.ply --judge openvdb
+svdag-verify colours red.svdag blue.obj
 svdag-verify diff city.svdag thin.svdag
 svdag-verify vdb city.svdag thin.vdb
 svdag-verify trace city.svdag scan.ply --rays 1000
@@ -65,6 +67,8 @@ class Reports(unittest.TestCase):
         with tempfile.TemporaryDirectory(prefix="svdag-reports-") as folder:
             folder = pathlib.Path(folder)
             (folder / "list.json").write_text(json.dumps(LIST))
+            for name, colour in (("red", "1 0 0"), ("blue", "0 0 1")):
+                (folder / f"{name}.obj").write_text("".join(f"v {at} {colour}\n" for at in ("0 0 0", "1 0 0", "0 1 0")) + "f 1 2 3\n")
 
             def run(line):
                 program, *arguments = line.split()

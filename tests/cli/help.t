@@ -73,6 +73,9 @@ $ COLUMNS=40 svdag-verify --help
 |   mesh
 |       Voxelize the scene again, by other
 |       means, and compare every voxel
+|   colours
+|       Compute colours of the scene
+|       again, by other means, and compare
 |   diff
 |       Count and list the voxels that
 |       only one DAG has

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kTouches = 0x1p-20;  // of a side: a triangle as near as that may meet the cube
 constexpr double kSmallPart = 1.0 / 8;
-constexpr double kStandardErrors = 3;
+constexpr double kStandardErrors = 4;
 
 Point cross_product(const Point& p, const Point& q) {
   return {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
