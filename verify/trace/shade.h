@@ -1,6 +1,7 @@
 // The colour of a camera ray, by what it hits.
 #pragma once
 
+#include <array>
 #include "io/colour.h"
 #include "verify/trace/kernel/traverse.h"
 #include "verify/trace/kernel/workload.h"
@@ -43,7 +44,12 @@ struct Shading {
 constexpr Vec3 kClay{{0.50, 0.46, 0.40}};
 
 inline Vec3 albedo_of(const Colour& colour) {
-  return {{light_of(colour.r), light_of(colour.g), light_of(colour.b)}};
+  static const std::array<double, 256> kLight = [] {
+    std::array<double, 256> light;
+    for (size_t code = 0; code < light.size(); ++code) light[code] = light_of(double(code));
+    return light;
+  }();
+  return {{kLight[colour.r], kLight[colour.g], kLight[colour.b]}};
 }
 
 // The distances of `box`, and a light over the left shoulder of the camera. A camera that cannot
