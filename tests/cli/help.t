@@ -195,8 +195,9 @@ $ COLUMNS=44 svdag help exit-codes
 |
 | For machine-readable output use --report
 | (svdag build) and --json (svdag info of
-| files; svdag-verify check, mesh, diff, vdb,
-| trace); docs/reports.md lists the keys:
+| files; svdag-verify check, mesh, colours,
+| diff, vdb, trace); docs/reports.md lists the
+| keys:
 |
 |     svdag build city.glb -o city.svdag \
 |       -r 4K --report city.json

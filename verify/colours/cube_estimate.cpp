@@ -11,6 +11,7 @@ namespace {
 constexpr double kTouches = 0x1p-20;  // of a side: a triangle as near as that may meet the cube
 constexpr double kSmallPart = 1.0 / 8;
 constexpr double kStandardErrors = 4;
+constexpr double kMoved = 1.5;
 
 Point cross_product(const Point& p, const Point& q) {
   return {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
@@ -38,9 +39,9 @@ class PlacedTriangle {
   int axis() const { return axis_; }
   bool has_area() const { return normal_[axis_] != 0; }
 
-  // Half of the square of the texture, in texels, that a texel of a coarser level may reach beyond
-  // a point: half of what the cube spans, from four texels on. Texels that are squares are defined
-  // by the bilinear mean where the cube spans two or more.
+  // How far from a point, in texels of the finest level, the level that defines its colour mixes
+  // others in: half of what the cube spans, from four texels on. Texels that are squares are
+  // defined by the bilinear mean where the cube spans two or more.
   double reach() const {
     if (t_.texture == nullptr) return 0;
     const TexturePoint &a = t_.points[0], &b = t_.points[1], &c = t_.points[2];
@@ -236,7 +237,7 @@ double CubeEstimate::tolerance(size_t channel) const {
   double moved = 0;
   for (const WeightedColour& other : moved_)
     moved = std::max(moved, other[0] > kMinArea ? std::abs(other[channel + 1] / other[0] - m) : 1);
-  return few + moved;
+  return few + kMoved * moved;
 }
 
 }  // namespace svdag

@@ -17,9 +17,9 @@
 //     much is transparent that the few points may miss what is opaque, every colour of an opaque
 //     point is allowed;
 //   * where a cube spans four texels or more, as it is defined by a coarser level of the texture,
-//     whose texels reach half a cube or more beyond it. The mean is taken four times more, with
-//     points moved by up to as much in each of the four directions, and the largest difference is
-//     allowed.
+//     whose texels reach beyond it. The mean is taken four times more, with points moved by up to
+//     half a cube in each of the four directions, and half as much again as the largest difference
+//     is allowed.
 // Texels that are squares are summed exactly where a cube spans less than two.
 // So the tolerance is next to nothing where a cube spans few texels or a smooth part of a texture,
 // and large in noise. Rejected: a fixed one, which either misses half a texel or fails foliage.
