@@ -164,12 +164,12 @@ std::string report_json(const BakeCommand& config, const BuildReport& r) {
 void print_summary(const BakeCommand& config, const BuildReport& r) {
   uint64_t nodes = 0;
   for (const uint64_t n : r.nodes) nodes += n;
-  std::printf("%s: %s^3, %s triangles, %s voxels, %s nodes, %s (%.3g bits per voxel), %.1f s\n",
+  std::printf("%s: %s^3, %s, %s, %s, %s (%.3g bits per voxel), %.1f s\n",
               printable(config.build.output).c_str(),
               format_resolution(uint64_t(r.grid.resolution())).c_str(),
-              format_count(r.split.scene.triangles).c_str(), format_count(r.voxels).c_str(),
-              format_count(nodes).c_str(), format_bytes(r.file_bytes).c_str(), bits_per_voxel(r),
-              r.seconds);
+              format_count(r.split.scene.triangles, "triangle").c_str(),
+              format_count(r.voxels, "voxel").c_str(), format_count(nodes, "node").c_str(),
+              format_bytes(r.file_bytes).c_str(), bits_per_voxel(r), r.seconds);
   if (r.colours) {
     std::printf("  ");
     print_colours(*r.colours);

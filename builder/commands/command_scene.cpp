@@ -11,21 +11,27 @@
 
 namespace svdag {
 
+namespace {
+
+std::string triangles_are(uint64_t count) {
+  return format_count(count, "triangle") + (count == 1 ? " is" : " are");
+}
+
+}  // namespace
+
 void print_scene_notes(const SceneCounts& counts) {
   for (const std::string& pattern : counts.unmatched)
     std::printf("  no part of the scene matches %s\n", printable(pattern).c_str());
   for (const std::string& image : counts.unread_images)
     std::printf("  no colour from a texture: %s\n", printable(image).c_str());
   for (size_t i = 0; i < kOmissionCount; ++i) {
-    if (counts.left_out[i] > 0)
-      std::printf("  %s %s\n", format_count(counts.left_out[i]).c_str(), kOmissions[i].text);
+    if (counts.left_out[i] > 0) std::printf("  %s\n", omission_text(i, counts.left_out[i]).c_str());
   }
   if (counts.cut > 0)
-    std::printf("  %s triangles are cut out by the alpha of their material\n",
-                format_count(counts.cut).c_str());
+    std::printf("  %s cut out by the alpha of their material\n", triangles_are(counts.cut).c_str());
   if (counts.undeformed > 0)
-    std::printf("  %s triangles are read as stored: skins and morph targets are not applied\n",
-                format_count(counts.undeformed).c_str());
+    std::printf("  %s read as stored: skins and morph targets are not applied\n",
+                triangles_are(counts.undeformed).c_str());
 }
 
 void print_colours(const ColourReport& report) {

@@ -22,6 +22,19 @@ bool is_sibling(const std::string& name) {
   return name == "export" || name == "import";
 }
 
+// "svdag build --layers, svdag info --layers": the commands with an option of this name; "" if none
+// has one.
+std::string commands_with(const Manual& program, const std::string& option) {
+  std::string list;
+  for (const Manual& command : program.commands) {
+    for (const ManualOption& each : command.options) {
+      if (std::ranges::find(each.names, option) != each.names.end())
+        list += (list.empty() ? "" : ", ") + command.command + " " + option;
+    }
+  }
+  return list;
+}
+
 [[noreturn]] void print_sibling_help(std::string name) {
   std::string program = "svdag", option = "--help";
   char* arguments[] = {program.data(), name.data(), option.data(), nullptr};
@@ -63,6 +76,9 @@ int run(const HelpCommand& help) {
     if (command.command == program.command + " " + subject) return print(help_text(command, width));
   }
   const std::string there = command_of_other_program(subject);
+  const std::string with = commands_with(program, "--" + subject);
+  if (there.empty() && !with.empty())
+    fail_usage("\"" + subject + "\" is an option: " + with + "; see the help of these commands");
   const std::string guess =
       there.empty() ? nearest(subject, help_subjects(program)) : there + " --help";
   fail_usage("unknown command or topic \"" + subject + "\"" +

@@ -3,7 +3,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <optional>
 #include <string>
 
@@ -15,6 +14,7 @@
 #include "io/lattice.h"
 #include "io/units.h"
 #include "streaming/error.h"
+#include "streaming/file/system_call.h"
 #include "streaming/process/interrupt.h"
 
 namespace svdag {
@@ -33,8 +33,7 @@ bool read_line(uint64_t number, std::string* line) {
                              std::to_string(kMaxLine) + " bytes");
     *line += char(c);
   }
-  if (std::ferror(stdin))
-    fail_input(kInput, std::string("cannot be read: ") + std::strerror(errno));
+  if (std::ferror(stdin)) fail_call(ExitCode::kBadInput, "cannot be read", kInput, errno);
   return c != EOF || !line->empty();
 }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <map>
+#include <unordered_map>
 
 #include "io/lattice.h"
 #include "io/scene/boundary_chain.h"
@@ -22,6 +22,11 @@ struct OpenEnd {
   uint64_t order = 0;  // of its first edge in the scene
   Point point{0};
   uint32_t part = 0;
+};
+
+// The hash of an end is one already; its first half chose the bucket.
+struct SecondHalf {
+  size_t operator()(const HashSum::Hash& hash) const noexcept { return size_t(hash[1]); }
 };
 
 template <class Visit>
@@ -51,7 +56,7 @@ OpenEdges find_open_edges(const Scene& scene, const Grid& grid) {
               });
   OpenEdges open;
   open.closed_mod_2 = all.is_closed_mod_2();
-  std::map<HashSum::Hash, OpenEnd> ends;
+  std::unordered_map<HashSum::Hash, OpenEnd, SecondHalf> ends;
   std::vector<std::string> parts;
   uint64_t order = 0;
   stream_ends(scene, grid,

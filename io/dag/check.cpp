@@ -29,7 +29,9 @@ void require(bool condition, const File& file, const char* sentence, uint64_t of
 
 void check_identity(const File& file, const Header& h) {
   if (std::memcmp(h.magic, kMagic, sizeof kMagic) != 0)
-    fail_input(file.path(), "is not a svdag file (its first bytes are not \\x89SVDAG)");
+    fail_input(file.path(),
+               "is not a .svdag (its first bytes are not \\x89SVDAG): svdag build makes one of a "
+               "scene");
   if (h.version < 1 || h.version > kMaxVersion)
     fail_input(file.path(), "has format version " + std::to_string(h.version) +
                                 ", this program reads versions 1 to " +
@@ -265,14 +267,12 @@ void check_header(const File& file, const Header& header) {
 }
 
 Header check_dag(const File& file) {
-  Header h;
+  Header h{};
   const size_t bytes_read = file.read_some_at(0, std::as_writable_bytes(std::span(&h, 1)));
-  const bool has_magic =
-      bytes_read >= sizeof h.magic && std::memcmp(h.magic, kMagic, sizeof kMagic) == 0;
+  const bool has_magic = std::memcmp(h.magic, kMagic, sizeof kMagic) == 0;
+  if (!has_magic) reject_symvox(file);
   if (has_magic && bytes_read < sizeof h)
     fail_input(file.path(), "damaged file: it ends within its header", bytes_read);
-  if (!has_magic) reject_symvox(file);
-  if (bytes_read < sizeof h) fail_input(file.path(), "is not a svdag file (it is too short)");
   check_header(file, h);
   check_layout(file, h);
   const std::vector<uint64_t> table = read_table(file, h);

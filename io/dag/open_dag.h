@@ -9,6 +9,9 @@
 
 namespace svdag {
 
+// Whether the file begins as a .svdag, packed or not. False for a file that cannot be read.
+bool begins_as_dag(const std::string& path);
+
 // Opens a .svdag (DagFile::open), or a packed one, which is unpacked to a file without a name. A
 // selection is a file without a name, too. `room`: for such files; null: TMPDIR, and half of the
 // memory.

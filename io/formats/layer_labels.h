@@ -10,7 +10,7 @@
 
 namespace svdag {
 
-constexpr Colour kNoLayerColour{0xbc, 0xb5, 0xaa};  // as in pictures
+constexpr Colour kNoLayerColour = kNeutralColour;
 
 class LayerLabels {
  public:

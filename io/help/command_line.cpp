@@ -203,7 +203,8 @@ void add_layout(CLI::App* command, Layout* layout) {
 void add_layer(CLI::App* command, std::vector<std::string>* layers) {
   command
       ->add_option("--layer", *layers,
-                   "Only this layer (svdag info --layers lists them); may be repeated")
+                   "Only the layers of this name or pattern (svdag info --layers lists them), "
+                   "!PATTERN: all but these; may be repeated")
       ->allow_extra_args(false)
       ->type_name("NAME");
 }
@@ -220,6 +221,15 @@ void add_selection(CLI::App* command, Selection* selection, bool with_level) {
           "--bounds", [selection](const std::string& s) { selection->bounds = parse_bounds(s); },
           "Only the voxels in this box, in world units")
       ->type_name("x0,y0,z0,x1,y1,z1");
+}
+
+void add_vox_up(CLI::App* command, std::optional<int>* up) {
+  one_of(
+      command->add_option_function<std::string>(
+          "--up", [up](const std::string& axis) { *up = axis[0] - 'x'; },
+          "vox: the axis of the .svdag that points up, which is z in a .vox: x, y (default) or z"),
+      {"x", "y", "z"})
+      ->type_name("AXIS");
 }
 
 void add_examples(CLI::App* command, const std::vector<std::string>& lines,

@@ -51,6 +51,8 @@ void add_layout(CLI::App* command, Layout* layout);
 // Adds --layer, --level and --bounds. Without `with_level`, the command has no --level, or another
 // one.
 void add_selection(CLI::App* command, Selection* selection, bool with_level = true);
+// --up of a .vox: 0 to 2.
+void add_vox_up(CLI::App* command, std::optional<int>* up);
 
 // Adds --layer.
 void add_layer(CLI::App* command, std::vector<std::string>* layers);

@@ -69,8 +69,9 @@ std::string explain_words(const Manual& program, std::span<const std::string> wo
     const std::string &word = words[i], name = option_name(word);
     if (name == "-h" || name == "--help" || name == "-V" || name == "--version") break;
     if (name.empty() && !commands.empty()) {
-      const std::string other = command_of_other_program(word);
-      return unknown("command \"" + word + "\"", other.empty() ? nearest(word, commands) : other);
+      std::string guess = command_of_other_program(word);
+      if (word == "version") guess = program.command + " --version";
+      return unknown("command \"" + word + "\"", guess.empty() ? nearest(word, commands) : guess);
     }
     if (name.empty()) continue;
     const ManualOption* option = find_option(command, name);

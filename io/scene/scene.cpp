@@ -288,8 +288,7 @@ void Scene::fail_empty(const SceneCounts& counts) const {
   std::string why;
   for (const std::string& pattern : counts.unmatched) why += "; nothing matches " + pattern;
   for (size_t i = 0; i < kOmissionCount; ++i) {
-    if (counts.left_out[i] > 0)
-      why += "; " + std::to_string(counts.left_out[i]) + " " + kOmissions[i].text;
+    if (counts.left_out[i] > 0) why += "; " + omission_text(i, counts.left_out[i]);
   }
   for (const std::string& path : config_.paths) {
     const File packed = File::open_read(path);

@@ -164,6 +164,16 @@ const SceneFormat* find_format(std::string_view ending, std::string_view start) 
   return format;
 }
 
+// A binary STL has no magic: its size follows from its count of triangles.
+bool looks_like_stl(const File& file, std::string_view start) {
+  if (start.starts_with("solid ") || start.starts_with("solid\n")) return true;
+  uint32_t triangles = 0;
+  constexpr uint64_t kHeader = 84, kTriangle = 50;
+  if (file.size() < kHeader) return false;
+  file.read_at(kHeader - sizeof triangles, std::as_writable_bytes(std::span(&triangles, 1)));
+  return triangles > 0 && file.size() == kHeader + kTriangle * triangles;
+}
+
 // "PLY, STL and OBJ".
 std::string format_names() {
   std::string names;
@@ -183,7 +193,13 @@ const SceneFormat& detect_format(const File& file) {
   std::string_view start(head.data(), head.size());
   if (start.starts_with(kByteOrderMark)) start.remove_prefix(kByteOrderMark.size());
   const std::string ending = lower_ending(file.path());
-  if (const SceneFormat* format = find_format(ending, start)) return *format;
+  if (const SceneFormat* format = find_format(ending, start)) {
+    const bool by_name = format->ending == ending && ending != "stl" &&
+                         (format->begins == nullptr || !format->begins(start, false));
+    if (by_name && looks_like_stl(file, start))
+      fail_input(file.path(), "is an STL under the name of another format: rename it to .stl");
+    return *format;
+  }
   if (ending == "svdag")
     fail_input(file.path(), "is a .svdag, not a scene: svdag info shows what it contains");
   const std::string foreign = foreign_format_message(ending, start);

@@ -10,12 +10,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string& checked(const std::string& target) {
+std::string checked(const std::string& target) {
   AtomicFile::check(target);
-  return target;
+  return output_target(target);
 }
 
 }  // namespace
+
+std::string output_target(std::string path) {
+  constexpr int kMaxLinks = 40;  // as the kernel
+  for (int i = 0; i < kMaxLinks; ++i) {
+    std::error_code error;
+    const fs::path next = fs::read_symlink(path, error);
+    if (error) return path;
+    path = next.is_absolute() ? next.native() : folder_of(path) + "/" + next.native();
+  }
+  return path;
+}
 
 // rename() replaces any file of the name; as root, even /dev/null.
 void AtomicFile::check(const std::string& target, bool keep_existing) {
@@ -25,6 +36,8 @@ void AtomicFile::check(const std::string& target, bool keep_existing) {
   const fs::file_type type = fs::status(target, error).type();
   if (error == std::errc::filename_too_long)
     throw Error(ExitCode::kOutput, "the file name is too long: choose a shorter one", target);
+  if (error == std::errc::too_many_symbolic_link_levels)
+    throw Error(ExitCode::kOutput, "is a loop of symbolic links: choose another name", target);
   if (type == fs::file_type::directory)
     throw Error(ExitCode::kOutput, "is a folder: name a file in it", target);
   const bool free = type == fs::file_type::not_found || type == fs::file_type::regular ||

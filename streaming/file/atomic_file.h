@@ -1,6 +1,7 @@
 // An output file that appears complete or not at all.
 //
-// Bytes go to an anonymous file in the target's folder. commit() does fsync, rename, close and
+// Bytes go to an anonymous file in the target's folder. The target of a symbolic link is where the
+// link points (output_target), also if no file is there yet. commit() does fsync, rename, close and
 // fsync of the folder, in this order: after a crash at any moment the name holds the old file or
 // the complete new one. Without commit() nothing is left behind. commit() fails if a mapped input
 // file has changed (streaming/file/mapped_file.h).
@@ -18,10 +19,14 @@
 
 namespace svdag {
 
+// The name that an output `path` is given: `path`, or where it points if it is a symbolic link.
+std::string output_target(std::string path);
+
 class AtomicFile {
  public:
   // Throws Error (kOutput) if `target` is too long a name or must not be replaced: a folder, a
-  // device, a pipe, a socket, a link to one, or the name of a descriptor (/dev/stdout). Error
+  // device, a pipe, a socket, a link to one, a loop of links, or the name of a descriptor
+  // (/dev/stdout). Error
   // (kUsage) for "-". A caller with long work ahead calls this first.
   // With `keep_existing` an existing target is an Error (kUsage), too.
   static void check(const std::string& target, bool keep_existing = false);

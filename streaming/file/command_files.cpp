@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include "streaming/error.h"
+#include "streaming/file/atomic_file.h"
 #include "streaming/file/file.h"
 
 namespace svdag {
@@ -15,10 +16,11 @@ std::string inode_key(const std::string& path) {
   return std::to_string(status.st_dev) + ":" + std::to_string(status.st_ino);
 }
 
-// Key of the directory entry that a rename to `path` replaces: device and inode of the folder, and
-// the last path component; `path` itself if the folder does not exist. Two links to one file have
-// different keys.
-std::string directory_entry_key(const std::string& path) {
+// Key of the directory entry that an output `name` replaces: device and inode of the folder, and
+// the last path component, of where a symbolic link points; the path if the folder does not exist.
+// Two hard links to one file have different keys.
+std::string directory_entry_key(const std::string& name) {
+  const std::string path = output_target(name);
   const std::string folder = inode_key(folder_of(path));
   return folder.empty() ? path : folder + "/" + base_name(path);
 }

@@ -30,6 +30,10 @@ std::string reason(int error) {
       return "the disk quota is used up";
     case EFBIG:
       return "the file exceeds the size limit (ulimit -f)";
+    case EISDIR:
+      return "it is a folder";
+    case ENOTDIR:
+      return "its path leads through a file";
     case EROFS:
       return "the file system is read-only";
     case EMFILE:

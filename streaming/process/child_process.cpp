@@ -65,9 +65,7 @@ pid_t spawn(const std::vector<std::string>& command, const FileActions& actions)
   const int error =
       posix_spawnp(&process, words[0], actions.get(), &attributes, words.data(), environ);
   posix_spawnattr_destroy(&attributes);
-  if (error != 0)
-    throw Error(ExitCode::kOutput, "cannot be started: " + std::string(std::strerror(error)),
-                command[0]);
+  if (error != 0) fail_call(ExitCode::kOutput, "cannot be started", command[0], error);
   return process;
 }
 

@@ -88,7 +88,7 @@ class Cases(unittest.TestCase):
             scene = FOLDER / "gltf_hidden_node.gltf"
             bake = ("svdag", "build", scene, "-r", "16", "-o", folder / "a.svdag", "--report", folder / "a.json")
             done = run(*bake)
-            self.assertIn("  1 hidden nodes are not baked; --hidden bakes them\n", done.stdout)
+            self.assertIn("  1 hidden node is not baked; --hidden bakes hidden nodes\n", done.stdout)
             self.assertEqual(json.loads((folder / "a.json").read_text())["left_out"], {"hidden": 1})
             self.assertIn("24 triangles", run(*bake, "--hidden").stdout)
             self.assertEqual(run("svdag-verify", "mesh", folder / "a.svdag", scene, "--hidden").returncode, 0)

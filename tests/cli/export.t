@@ -171,6 +171,8 @@ $ svdag export s.svdag -o s.svo --bounds=900,0,0,901,1,1
 $ svdag export s.svdag --format octree -o s.oct
 ! svdag: s.oct: the name must end in .octree (two more files are written beside it)
 ? 2
+$ svdag export s.svdag -o s.npz --bounds=900,0,0,901,1,1
+? 2
 $ svdag-scene rectangle -q -o r.ply
 $ svdag build r.ply -r 32K -o r.svdag -q
 $ svdag export r.svdag -o r.vox --level 14

@@ -24,6 +24,15 @@ $ for f in a.basic_dag.dag.bin symvox.svdag a.svo a.npz a.binvox a.vox; do
 |   content hash 8c1e65409a337afb13ff9de673ffc78c
 | b.svdag: vox, 328,308 voxels of 256^3, 1,272 DAG nodes, 27.6 KiB
 |   content hash 9837d3470e955dda9be947e175bd6838
+# z is up in a .vox: whichever axis becomes z, the import turns back.
+$ for up in x y z; do svdag export a.svdag -o $up.vox -q --up $up && svdag import $up.vox -o b.svdag -q -r 256 --up $up && svdag-verify diff a.svdag b.svdag --by-index -q; done
+$ cmp y.vox a.vox
+$ svdag export a.svdag -o c.npz --up z
+! svdag: --up: only vox has an axis that points up, the format is npz
+? 2
+$ svdag import a.npz -o c.svdag --up z
+! svdag: --up: only for .vox files; a.npz is read as npz
+? 2
 # The points of an export are neither voxels with a grid nor triangles.
 $ svdag export a.svdag -o points.ply -q
 $ svdag import points.ply -o back.svdag

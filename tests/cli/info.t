@@ -111,7 +111,7 @@ $ head -c 70000 /dev/zero | tr '\000' 1 | svdag query t.svdag
 ! svdag: standard input: line 1 is longer than 65536 bytes
 ? 3
 $ svdag query t.svdag < .
-! svdag: standard input: cannot be read: Is a directory
+! svdag: standard input: cannot be read: it is a folder
 ? 3
 $ printf '5 0 0' | svdag query t.svdag
 | set 5  4.5 -0.5 -0.5  5.5 0.5 0.5

@@ -19,11 +19,21 @@ $ svdag info two.svdag --layers | tail -2
 |               98,941             43              4  #9e804f  wall
 # The union is the OR.
 $ for layer in wall floor; do svdag convert a.svdag -q -o $layer.svdag --layer $layer; done
-$ svdag edit wall.svdag floor.svdag --union -q -o edited.svdag && svdag-verify diff two.svdag edited.svdag -q && echo "the union is the OR"
+$ svdag edit wall.svdag floor.svdag --union -q -o edited.svdag && cmp two.svdag edited.svdag && echo "the union is the OR"
 | the union is the OR
+# One layer keeps its name and colour.
+$ svdag info wall.svdag --layers | tail -1
 # One name, twice, is that layer alone. All names are the whole file.
 $ svdag convert a.svdag -q -o again.svdag --layer wall --layer wall && cmp wall.svdag again.svdag
 $ svdag convert a.svdag -q -o all.svdag --layer roof --layer floor --layer wall --layer '(unnamed)' && cmp a.svdag all.svdag
+# Patterns, and all but what they match. A name wins: "(unnamed)" is no pattern.
+$ svdag convert a.svdag -q -o x.svdag --layer '[fw]*' && cmp x.svdag two.svdag
+$ svdag convert a.svdag -q -o x.svdag --layer '*' --layer '!(unnamed)' --layer '!r*f' && cmp x.svdag two.svdag
+$ svdag convert a.svdag -q -o x.svdag --layer '!(unnamed)' --layer '!roof' && cmp x.svdag two.svdag
+$ svdag convert a.svdag -q -o x.svdag --layer '!*'
+? 2
+$ svdag convert a.svdag -q -o x.svdag --layer '!glass*'
+? 2
 # Every form of a file, and the other programs.
 $ svdag convert a.svdag -q -o compact.svdag --layout compact && svdag pack a.svdag -q -o a.pack
 $ for file in compact.svdag a.pack; do svdag convert $file -q -o x.svdag --layer floor --layer wall && cmp x.svdag two.svdag; done
@@ -276,7 +286,7 @@ $ svdag build two.obj one.obj -q -o plain.svdag -r 512
 $ svdag info both.svdag --layers | tail -2 > table
 # 512^3 needs several .vox models. 4 is coarser than the cubes of the layer index (level 5).
 $ for level in 9 8 7 5 4; do
->   for format in ply npz vox; do svdag export both.svdag -q -o "both_$level.$format" --level $level; done
+>   for format in ply npz vox; do svdag export both.svdag -q -o "both_$level.$format" --level $level $([ $format != vox ] || echo --up z); done
 >   for layer in one two; do svdag export both.svdag -q -o "${layer}_$level.npz" --level $level --layer $layer.obj; done
 > done
 $ svdag export both.svdag -q -o both_box.npz --bounds=0,0,0,3,3,3
@@ -369,7 +379,8 @@ $ /usr/bin/python3 -B check.py
 # Each form of the file gives the same bytes.
 $ svdag convert both.svdag -q -o compact.svdag --layout compact && svdag pack both.svdag -q -o both.pack
 $ for file in compact.svdag both.pack; do
->   for format in ply npz vox; do svdag export $file -q -o again.$format && cmp again.$format both_9.$format; done
+>   for format in ply npz; do svdag export $file -q -o again.$format && cmp again.$format both_9.$format; done
+>   svdag export $file -q -o again.vox --up z && cmp again.vox both_9.vox
 > done
 # Other formats have no layers: they hold the union.
 $ for file in both plain; do svdag export $file.svdag -q -o $file.binvox; done && cmp both.binvox plain.binvox
@@ -624,7 +635,7 @@ $ svdag merge 1.run 2.run -q -o 12.run && svdag build atrium.obj -o 3.run -r 256
 ! svdag: 12.run and 3.run are from different bakes: --layers or --no-union differs
 ? 2
 # Formats that tell the layer of a voxel.
-$ for format in ply npz vox; do svdag export a.svdag -q -o "a.$format" --level 6; done
+$ for format in ply npz; do svdag export a.svdag -q -o "a.$format" --level 6; done && svdag export a.svdag -q -o a.vox --level 6 --up z
 $ /usr/bin/python3 -B - <<'EOF'
 > import re, struct, numpy
 > npz = numpy.load("a.npz")
@@ -644,6 +655,6 @@ $ /usr/bin/python3 -B - <<'EOF'
 | ['blue cloth', 'floor', 'leaves', 'plaster', 'red cloth', 'roof', 'stone', 'tile', 'vase'] [510, 4092, 184, 7012, 615, 2182, 5896, 0, 5]
 | ply: True
 | vox: True
-$ svdag import a.npz -q -o again.svdag && svdag import a.vox -q -o vox.svdag && svdag info vox.svdag | sed -n 3p && svdag info again.svdag | sed -n 3p
+$ svdag import a.npz -q -o again.svdag && svdag import a.vox -q -o vox.svdag --up z && svdag info vox.svdag | sed -n 3p && svdag info again.svdag | sed -n 3p
 |   occupied: voxels 0 .. 63, 0 .. 22, 0 .. 34; (0, 0, 0) to (64, 23, 35)
 |   occupied: voxels 0 .. 63, 0 .. 22, 0 .. 34; (-16.1631434, -0.563137279, -8.66314338) to (16.1631434, 11.054122, 9.01529469)

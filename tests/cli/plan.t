@@ -231,7 +231,7 @@ $ stop INT polled svdag submit small --engine slurm --wait -q
 $ svdag-scene speck -n 100 -q -o s.ply
 $ svdag plan s.ply -r 64 --shards 2 -o p -q
 $ PATH=/nowhere "$(command -v svdag)" submit p --engine slurm
-! svdag: sbatch: cannot be started: No such file or directory: is Slurm installed?
+! svdag: sbatch: cannot be started: no such file or folder: is Slurm installed?
 ? 2
 
 ## plan_table

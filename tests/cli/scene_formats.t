@@ -151,6 +151,7 @@ $ cat > t.obj <<'OBJ'
 > OBJ
 $ printf 'OFF\n3 1 0\n0 0 0\n9 0 1\n0 7 2\n3 0 1 2\n' > t.off
 $ printf 'solid a\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 9 0 1\nvertex 0 7 2\nendloop\nendfacet\nendsolid\n' > t.stl
+$ for kind in glb obj ply fbx; do cp t.stl x.$kind; svdag build x.$kind -o x.svdag -r 64 2>&1 || echo "exit $?"; done
 $ svdag build t.obj -o t.svdag -r 64 -q
 $ for name in t.obj t.off t.stl; do
 >   gzip $name

@@ -22,6 +22,20 @@ $ for line in "check r.svdag" "verify check r.svdag" "trace r.svdag" "help rende
 | exit 3
 | svdag: r.svdag: is a .svdag, not a scene: svdag info shows what it contains
 | exit 3
+# The judge needs a .svdag, and names it first.
+$ svdag-verify check r.ply
+? 3
+$ svdag-verify mesh r.ply r.svdag
+? 2
+# Points are not arguments, and an option is not a topic.
+$ svdag query r.svdag 1 -2 3
+? 2
+$ svdag help layers
+? 2
+$ svdag version
+? 2
+$ svdag build r.ply --res 64 -o x.svdag
+? 2
 $ svdag-verify build r.ply 2>&1
 | svdag-verify: unknown command "build" of svdag-verify; did you mean svdag build?
 ? 2

@@ -142,6 +142,18 @@ $ svdag-verify diff a.svdag b.svdag
 | clusters  0
 | same
 
+## verify_diff_layers
+# A line for each layer that differs; JSON has all.
+$ svdag-scene atrium -o a.obj -q
+$ svdag build a.obj -o a.svdag -r 64 --layers material -q
+$ svdag build a.obj -o b.svdag -r 64 --layers material -q --exclude material:vase --allow-empty
+$ svdag-verify diff a.svdag a.svdag
+$ svdag-verify diff a.svdag b.svdag --show 0
+? 1
+$ svdag-verify diff a.svdag b.svdag --json | tr '{' '\n' | grep -c both
+$ svdag-verify mesh b.svdag a.obj
+? 1
+
 ## verify_diff_many_layers
 # The time grows with the layers, not with their square.
 $ awk 'BEGIN { for (i = 0; i < 65000; i++) { x = i % 41; y = int(i / 41) % 41; z = int(i / 1681)

@@ -74,7 +74,7 @@ Verdict verdict_of(const DagFile& file, const SceneFacts& facts, const ColourCom
 int run(const ColoursConfig& config) {
   const Stopwatch stopwatch(config.common);
   require_count("--sample", config.sample);
-  const DagFile file = open_dag(config.file);
+  const DagFile file = open_judged(config.file, config.scene);
   if (!file.has_colours()) fail_usage(file.path() + ": has no colours: add them with svdag colour");
   SceneConfig scene = config.scene;
   scene.colours = scene.paint = scene.keep_images = true;

@@ -41,6 +41,12 @@ FigureValue voxel_value(const Grid& grid, const LatticePoint& voxel) {
                    format_point(grid.corner() + (Point(voxel) + 0.5) * grid.voxel_size));
 }
 
+void add_agreeing_layers(Verdict* verdict, int64_t count) {
+  if (count == 0) return;
+  verdict->for_people("layers",
+                      format_count(uint64_t(count), "layer") + (count == 1 ? " agrees" : " agree"));
+}
+
 std::string describe_grid(const DagFile& file) {
   const Grid grid = file.grid();
   const Point corner = grid.corner();

@@ -40,6 +40,9 @@ int finish(const CommonConfig& config, const Verdict& verdict, bool ok);
 // A voxel with its centre in the world: "voxel (1, 2, 3) at (0.5, 1, 1.5)".
 FigureValue voxel_value(const Grid& grid, const LatticePoint& voxel);
 
+// The line "78 layers agree", for layers that text does not list; nothing for 0.
+void add_agreeing_layers(Verdict* verdict, int64_t count);
+
 // "1K^3 box, voxel size 0.5, corner (0, 0, 0), rule conservative".
 std::string describe_grid(const DagFile& file);
 

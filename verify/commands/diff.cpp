@@ -170,10 +170,14 @@ Verdict verdict_of(const DiffConfig& config, const DagDiff& diff, const DiffCoun
   verdict.add("only_a", "only A", counts.only_a);
   verdict.add("only_b", "only B", counts.only_b);
   for (size_t i = 0; i < layers.size(); ++i) {
+    verdict.hide(layers[i].counts.same());
     verdict.add(member("layers", i) + "name", "layer",
                 shown(layers[i].name, shown_layer(layers[i].name)));
     add_counts(&verdict, member("layers", i), layers[i].counts);
   }
+  verdict.hide(false);
+  add_agreeing_layers(
+      &verdict, std::ranges::count_if(layers, [](const DiffLayer& l) { return l.counts.same(); }));
   verdict.add("clusters", "clusters", clusters.total);
   verdict.for_programs("largest_clusters", FigureValue::List());
   for (size_t i = 0; i < clusters.first.size(); ++i) {

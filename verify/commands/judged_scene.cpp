@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "io/dag/dag_file.h"
+#include "io/dag/open_dag.h"
 #include "io/units.h"
 #include "streaming/error.h"
 
@@ -17,6 +17,12 @@ SceneConfig placed(SceneConfig config, const Grid& grid) {
 }
 
 }  // namespace
+
+DagFile open_judged(const std::string& path, const SceneConfig& scene) {
+  if (scene.paths.size() == 1 && !begins_as_dag(path) && begins_as_dag(scene.paths.front()))
+    fail_usage(scene.paths.front() + ": is the .svdag: name it before the scene");
+  return open_dag(path);
+}
 
 JudgedScene::JudgedScene(const SceneConfig& config, uint64_t memory, Progress::Mode mode,
                          const Grid& grid)

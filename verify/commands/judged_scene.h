@@ -17,6 +17,10 @@ struct SceneFacts {
   SceneCounts counts;
 };
 
+// Opens the .svdag that is judged by a scene. Error (kUsage) if the scene is the .svdag: the names
+// were swapped.
+DagFile open_judged(const std::string& path, const SceneConfig& scene);
+
 // The scene of the file: opened, with its bounds read and compared with the grid.
 struct JudgedScene {
   JudgedScene(const SceneConfig& config, uint64_t memory, Progress::Mode mode, const Grid& grid);

@@ -187,12 +187,17 @@ Verdict verdict_of(const DagFile& file, const JudgeChoice& choice, const Judgeme
   for (size_t i = 0; i < j.layers.size(); ++i) {
     const std::string key = "layers/" + std::to_string(i) + "/";
     const auto& [name, layer] = j.layers[i];
+    verdict.hide(layer.agrees());
     verdict.add(key + "name", "layer", shown(name, shown_layer(name)));
     verdict.also(key + "file_voxels", layer.file_voxels, "voxels in the file");
     verdict.also(key + "judge_voxels", layer.judge_voxels, "by the judge");
     verdict.also(key + "missing", layer.missing, "missing");
     verdict.also(key + "extra", layer.extra, "extra");
   }
+  verdict.hide(false);
+  add_agreeing_layers(&verdict, std::ranges::count_if(j.layers, [](const JudgedLayer& l) {
+    return l.comparison.agrees();
+  }));
   verdict.add("ok", "", shown(j.ok(), conclusion(j)));
   return verdict;
 }
@@ -202,7 +207,7 @@ Verdict verdict_of(const DagFile& file, const JudgeChoice& choice, const Judgeme
 int run(const MeshConfig& config) {
   const Stopwatch stopwatch(config.common);
   if (config.sample) require_count("--sample", *config.sample);
-  const DagFile file = open_dag(config.file);
+  const DagFile file = open_judged(config.file, config.scene);
   if ((file.layers().kind == LayerKind::kFrame) == config.scene.frames.empty())
     fail_usage(config.scene.frames.empty()
                    ? file.path() + ": its layers are frames: give --frames"

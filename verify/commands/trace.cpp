@@ -260,7 +260,7 @@ Verdict verdict_of(const DagFile& file, const TraceConfig& config, const TraceJu
 int run(const TraceConfig& config) {
   const Stopwatch stopwatch(config.common);
   require_count("--rays", config.rays);
-  const DagFile file = open_dag(config.file);
+  const DagFile file = open_judged(config.file, config.scene);
   require_union(file, "trace");
   const TraceJudgement judgement = trace(config, file);
   return finish(config.common, verdict_of(file, config, judgement), judgement.ok());

@@ -66,6 +66,8 @@ void reject_options_of_other_formats(const FormatRow& row, const ExportConfig& c
   const std::string format = row.format.name;
   if (config.vdb_type && row.write != export_vdb)
     fail_usage("--vdb-type: only vdb has grids of several types, the format is " + format);
+  if (config.up && row.write != export_vox)
+    fail_usage("--up: only vox has an axis that points up, the format is " + format);
   if (config.colours && row.write != export_hashdag)
     fail_usage("--colours: only hashdag has a second file of colours, the format is " + format);
   const auto lists = {export_npz, export_binvox, export_vox, export_ply};
@@ -106,7 +108,7 @@ ExportPart::ExportPart(const DagFile& dag_file, const ExportConfig& config)
     : file(dag_file),
       grid(level_grid(dag_file.grid(), selected_level(dag_file, config.selection))),
       walk(dag_file.view(), uint32_t(grid.levels)) {
-  if (config.selection.bounds) grid = select_bounds(grid, *config.selection.bounds);
+  if (config.selection.bounds) grid = cropped_grid(grid, *config.selection.bounds);
 }
 
 std::vector<ExportFormat> export_formats() {
@@ -123,10 +125,7 @@ int run(const ExportConfig& options) {
   const DagFile file =
       open_dag(options.file, {.layers = options.selection.layers, .without_colours = true}, &room);
   if (options.colours && file.layers().empty())
-    fail_usage("--colours: " + file.path() + " has no layers" +
-               (options.selection.layers.empty()
-                    ? " (svdag build --layers)"
-                    : " when one --layer is chosen: choose several, or none"));
+    fail_usage("--colours: " + file.path() + " has no layers (svdag build --layers)");
   ExportPart part(file, options);
   ExportConfig config = options;
   if (row.path != nullptr) config.output = row.path(options.output, part.grid.levels);

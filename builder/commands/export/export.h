@@ -21,6 +21,7 @@ struct ExportConfig {
   Selection selection;
   std::optional<uint64_t> max_voxels;  // limit of formats that list voxels; none: 10^9
   std::optional<VdbFormat> vdb_type;   // --vdb-type; default: bool
+  std::optional<int> up;               // --up, vox: the axis that is up, 0 to 2; default: y
   bool colours = false;                // --colours: hashdag gets a second file, of colours
   uint64_t memory = 0;                 // 0: half of the machine's memory
   bool no_clobber = false;             // -n: an existing output is an error

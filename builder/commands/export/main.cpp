@@ -44,6 +44,7 @@ void set_up(CLI::App* app, ExportConfig* config) {
              "a fog volume of 1 in 0"),
          {"bool", "mask", "float"})
       ->type_name("TYPE");
+  add_vox_up(app, &config->up);
   app->add_flag("--colours", config->colours,
                 "hashdag: write the colours of layers beside it, 4 bytes a voxel");
   add_memory_budget(app, &config->memory);

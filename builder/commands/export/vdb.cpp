@@ -68,7 +68,7 @@ MemoryBudget::Reservation reserve_labels(const CubeCounts& counts, ExportPart* p
     throw Error(ExitCode::kMemory, "the grid of layers would have more than " +
                                        format_count(max_leaves) +
                                        " leaves, too many for --memory: export a coarser --level, "
-                                       "a part with --bounds, or one layer with --layer");
+                                       "or a part with --bounds");
   return budget->reserve(vdb_label_bytes(leaves, counts.middle, counts.large),
                          "leaves of the grid of layers");
 }

@@ -1,3 +1,5 @@
+#include <functional>
+
 #include "builder/commands/export/export_part.h"
 #include "io/dag/occupied_bounds.h"
 #include "io/formats/voxels/binvox.h"
@@ -26,7 +28,7 @@ VoxelWindow window_of(ExportPart* part, const ExportConfig& config, MemoryBudget
 }
 
 uint64_t export_window(ExportPart* part, const ExportConfig& config, MemoryBudget* budget,
-                       void (*write)(const VoxelWindow&, const std::string&)) {
+                       const std::function<void(const VoxelWindow&, const std::string&)>& write) {
   VoxelWindow window = window_of(part, config, budget);
   std::optional<LayerLabels> labels;
   if (!part->file.layers().empty()) window.labels = &labels.emplace(part->file, part->grid.levels);
@@ -54,7 +56,9 @@ uint64_t export_binvox(ExportPart* part, const ExportConfig& config, MemoryBudge
 }
 
 uint64_t export_vox(ExportPart* part, const ExportConfig& config, MemoryBudget* budget) {
-  return export_window(part, config, budget, write_vox);
+  return export_window(part, config, budget, [&](const VoxelWindow& w, const std::string& path) {
+    write_vox(w, path, config.up.value_or(kDefaultVoxUp));
+  });
 }
 
 uint64_t export_ply(ExportPart* part, const ExportConfig& config, MemoryBudget* budget) {

@@ -29,7 +29,7 @@ namespace svdag {
 namespace {
 
 using GraphReader = std::unique_ptr<NodeGraph> (*)(const File&);
-using VoxelReader = GridPlacement (*)(const File&, const VoxelSink&, LayerTable*);
+using VoxelReader = GridPlacement (*)(const File&, const VoxelSink&, LayerTable*, int up);
 using FileStart = std::string_view;  // the first bytes of a file
 
 bool looks_like_symvox(const File& file, FileStart) {
@@ -57,8 +57,11 @@ bool looks_like_vdb(const File&, FileStart start) {
   return start.starts_with(" BDV") || start.starts_with("NanoVDB");
 }
 
-GridPlacement read_binvox_alone(const File& file, const VoxelSink& sink, LayerTable*) {
+GridPlacement read_binvox_alone(const File& file, const VoxelSink& sink, LayerTable*, int) {
   return read_binvox(file, sink);
+}
+GridPlacement read_npz_alone(const File& file, const VoxelSink& sink, LayerTable* layers, int) {
+  return read_npz(file, sink, layers);
 }
 
 struct FormatRow {
@@ -71,7 +74,7 @@ struct FormatRow {
 // The only table of formats; those with a magic number come first.
 constexpr FormatRow kFormats[] = {
     {"transform-dag", looks_like_transform_dag, read_transform_dag, nullptr},
-    {"npz", looks_like_npz, nullptr, read_npz},
+    {"npz", looks_like_npz, nullptr, read_npz_alone},
     {"binvox", looks_like_binvox, nullptr, read_binvox_alone},
     {"vox", looks_like_vox, nullptr, read_vox},
     {"vdb", looks_like_vdb, nullptr, nullptr},
@@ -100,12 +103,17 @@ const FormatRow& choose(const ImportCommandConfig& config, const File& file) {
                               " (svdag build bakes scenes)");
 }
 
-// Rejects options of OpenVDB grids for other formats, which would ignore them.
-void require_no_vdb_options(const ImportCommandConfig& config, const FormatRow& row) {
-  const char* option = !config.grid.empty() ? "--grid" : config.iso ? "--iso" : nullptr;
-  if (option != nullptr)
-    fail_usage(std::string(option) + ": only for .vdb files; " + config.file + " is read as " +
-               row.name);
+// Rejects options of other formats, which this one would ignore.
+void reject_options_of_other_formats(const ImportCommandConfig& config, const FormatRow& row) {
+  const auto reject = [&](bool given, const char* option, const char* ending) {
+    if (given)
+      fail_usage(std::string(option) + ": only for " + ending + " files; " + config.file +
+                 " is read as " + row.name);
+  };
+  const bool is_vdb = row.graph == nullptr && row.voxels == nullptr;
+  reject(!is_vdb && !config.grid.empty(), "--grid", ".vdb");
+  reject(!is_vdb && config.iso, "--iso", ".vdb");
+  reject(row.voxels != read_vox && config.up, "--up", ".vox");
 }
 
 ImportReport import_as(const FormatRow& row, const File& file, const File* colours,
@@ -123,7 +131,8 @@ ImportReport import_as(const FormatRow& row, const File& file, const File* colou
   if (row.voxels != nullptr) {
     LayerTable layers;
     const auto read = [&](const VoxelSink& sink, const FullCubeSink&) {
-      return row.voxels(file, sink, config.no_layers ? nullptr : &layers);
+      return row.voxels(file, sink, config.no_layers ? nullptr : &layers,
+                        config.up.value_or(kDefaultVoxUp));
     };
     return import_voxels(read, import, &executor, 0, &layers);
   }
@@ -162,7 +171,7 @@ int run(const ImportCommandConfig& config) {
     if (std::filesystem::is_regular_file(path, error))
       inputs.add(colours.emplace(File::open_read(path)));
   }
-  if (row.graph != nullptr || row.voxels != nullptr) require_no_vdb_options(config, row);
+  reject_options_of_other_formats(config, row);
   const ImportReport report = inputs.guard(
       [&] { return import_as(row, file, colours ? &*colours : nullptr, config, import); });
   if (config.json)

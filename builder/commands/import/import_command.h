@@ -19,6 +19,7 @@ struct ImportCommandConfig {
   std::string format;             // a name in import_formats(); empty: from the file's content
   std::string grid;               // --grid, vdb: name of the grid; empty: the file's only grid
   std::optional<ValueRange> iso;  // --iso, vdb: values of a float grid that are set
+  std::optional<int> up;          // --up, vox: the axis that z becomes, 0 to 2; default: y
   bool no_layers = false;         // --no-layers: labels and colours are ignored
   bool sandbox = false;           // --sandbox: OpenVDB runs in a process that can only compute
   ImportConfig import;

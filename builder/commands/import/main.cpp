@@ -38,6 +38,7 @@ void set_up(CLI::App* app, ImportCommandConfig* config) {
          "--iso", [config](const std::string& text) { config->iso = parse_iso(text); },
          "vdb: the values of a float grid that are set, for example --iso=-inf,0")
       ->type_name("LOW,HIGH");
+  add_vox_up(app, &config->up);
   app->add_flag(
       "--no-layers", config->no_layers,
       "npz, vox, hashdag: only the voxels, without the layers of their labels or colours");

@@ -212,7 +212,7 @@ int run(const InfoCommand& config) {
   if (one && is_plan(first)) {
     reject_scene_options("plan");
     info_plan(config);
-  } else if (one && (begins_with(kMagic, first) || begins_with(kPackedMagic, first))) {
+  } else if (one && begins_as_dag(first)) {
     reject_scene_options(".svdag");
     info_dag(config);
   } else if (one && begins_with(kRunMagic, first)) {

@@ -6,6 +6,7 @@
 #include "io/help/command_line.h"
 #include "io/scene/scene_formats.h"
 #include "io/units.h"
+#include "streaming/error.h"
 
 namespace svdag {
 
@@ -41,8 +42,16 @@ void add_query(CLI::App* program, Command* command) {
                "prints \"set\" and the voxel, \"empty\" and the largest empty cube of the octree "
                "around the point, both as level (of the octree; the last is that of voxels) and "
                "box, or \"outside\" if the point is not in the grid.");
+  app->allow_extras();  // points, most likely
   app->preparse_callback([=](size_t) { *config = {}; });
-  app->callback([=] { *command = *config; });
+  app->callback([=] {
+    std::string words;
+    for (const std::string& word : app->remaining()) words += (words.empty() ? "" : " ") + word;
+    if (!words.empty())
+      fail_usage("points are read from standard input: echo " + words + " | svdag query " +
+                 config->file);
+    *command = *config;
+  });
 }
 
 }  // namespace svdag

@@ -17,13 +17,11 @@ DagGraph::DagGraph(const DagFile& file, int levels, const std::vector<std::strin
     for (const Layer& layer : table.layers) add(file.root_node(layer.root), layer.voxels);
     return;
   }
-  const std::vector<size_t> numbers = layers_named(table, chosen);
-  for (const size_t number : numbers) {
+  for (const size_t number : layers_named(table, chosen)) {
     const Layer& layer = table.layers[number];
     add(file.root_node(layer.root), layer.voxels);
-    if (numbers.size() > 1) layers_.layers.push_back(layer);
+    layers_.layers.push_back(layer);
   }
-  if (numbers.size() == 1) return;
   layers_.kind = table.kind;
   layers_.has_union = false;
 }

@@ -19,8 +19,7 @@ class DagGraph final : public NodeGraph {
   // Only the set that view() shows, as a graph without layers.
   static DagGraph of_view(const DagFile& file, int levels);
 
-  // Of the sets; roots and voxels are not set. One chosen layer is a set without layers. Several
-  // have no union: UnitedGraph makes it.
+  // Of the sets; roots and voxels are not set. Chosen layers have no union: UnitedGraph makes it.
   const LayerTable& layers() const { return layers_; }
 
   Grid grid() const override { return grid_; }

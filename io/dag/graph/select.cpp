@@ -85,7 +85,7 @@ GraphOfSets graph_of(const DagFile& file, const Selection& selection, MemoryBudg
     auto graph = std::make_unique<DagGraph>(file, level, selection.layers);
     result.layers = graph->layers();
     result.become(std::move(graph));
-    if (!selection.layers.empty() && !result.layers.empty()) {
+    if (!selection.layers.empty()) {
       result.become(std::make_unique<UnitedGraph>(result.nodes, budget));
       result.layers.has_union = true;
     }
@@ -94,13 +94,16 @@ GraphOfSets graph_of(const DagFile& file, const Selection& selection, MemoryBudg
   return result;
 }
 
-void crop(GraphOfSets* graph, const Box& bounds, MemoryBudget* budget) {
-  Grid grid = graph->nodes->grid();
-  const VoxelBox before = grid.selection;
-  grid = select_bounds(grid, bounds);
-  grid.selection = common_part(grid.selection, before);
-  if (grid.selection.empty())
+Grid cropped_grid(const Grid& grid, const Box& bounds) {
+  Grid cropped = select_bounds(grid, bounds);
+  cropped.selection = common_part(cropped.selection, grid.selection);
+  if (cropped.selection.empty())
     fail_usage("--bounds: the box meets no voxel of the grid that may be set");
+  return cropped;
+}
+
+void crop(GraphOfSets* graph, const Box& bounds, MemoryBudget* budget) {
+  const Grid grid = cropped_grid(graph->nodes->grid(), bounds);
   auto box = std::make_unique<BoxGraph>(grid, grid.selection);
   std::vector<NodePair> roots;
   for (const uint32_t root : graph->nodes->roots()) roots.push_back({root, box->roots().front()});

@@ -1,6 +1,6 @@
 // The file of a selected part of a file (io/dag/graph/selection.h).
 //
-// A selection is a graph of the file's nodes (DagGraph), united if several layers are chosen
+// A selection is a graph of the file's nodes (DagGraph), united if layers are chosen
 // (UnitedGraph), intersected with a box (CombinedGraph), and reduced (io/dag/graph/reduce.h). So
 // it has the bytes of a bake of these voxels. The plain layout of a whole file is made likewise.
 #pragma once
@@ -38,6 +38,9 @@ struct GraphOfSets {
 // The selection as a graph, which `file` and the budget must outlive. Error (kUsage) if there is no
 // such layer or level, or no voxel within the bounds may be set.
 GraphOfSets graph_of(const DagFile& file, const Selection& selection, MemoryBudget* budget);
+
+// The grid within the bounds. Error (kUsage) if no voxel in them may be set.
+Grid cropped_grid(const Grid& grid, const Box& bounds);
 
 // Keeps the voxels whose interior meets the bounds. Error (kUsage): as above.
 void crop(GraphOfSets* graph, const Box& bounds, MemoryBudget* budget);

@@ -11,7 +11,7 @@
 namespace svdag {
 
 struct Selection {
-  // --layer: only these. One is a file without layers; of several, the first root is their union.
+  // --layer: only these names and patterns (layers_named); the first root is their union.
   std::vector<std::string> layers{};
   std::optional<int> level{};      // --level: K, whose voxels are the cubes of 2^(L-K) voxels
   std::optional<Box> bounds{};     // --bounds: the voxels of the level that meet it, in world units

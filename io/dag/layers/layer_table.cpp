@@ -1,5 +1,7 @@
 #include "io/dag/layers/layer_table.h"
 
+#include <fnmatch.h>
+
 #include <algorithm>
 #include <cstring>
 #include <set>
@@ -13,21 +15,40 @@
 namespace svdag {
 namespace {
 
-// Error (kUsage) if there is none.
-size_t layer_named(const LayerTable& table, const std::string& name) {
-  const std::vector<Layer>& layers = table.layers;
-  auto found = std::ranges::find(layers, name, &Layer::name);
-  if (found == layers.end() && name == shown_layer(""))
-    found = std::ranges::find(layers, "", &Layer::name);
-  if (found != layers.end()) return size_t(found - layers.begin());
+// A name in patterns and suggestions.
+std::string typed_name(const Layer& layer) {
+  return layer.name.empty() ? shown_layer("") : layer.name;
+}
+
+[[noreturn]] void fail_no_layer(const LayerTable& table, const std::string& name) {
   if (table.empty()) fail_usage("--layer: the file has no layers");
   std::vector<std::string> names;
-  for (const Layer& layer : layers)
-    names.push_back(layer.name.empty() ? shown_layer("") : layer.name);
+  for (const Layer& layer : table.layers) names.push_back(typed_name(layer));
   const std::string near = nearest(name, names);
   fail_usage("--layer: the file has no layer \"" + printable(name) + "\"" +
              (near.empty() ? "" : "; did you mean \"" + printable(near) + "\"?") +
              " (svdag info --layers lists them)");
+}
+
+// The layer of exactly this name; nothing if there is none.
+std::optional<size_t> exactly_named(const LayerTable& table, const std::string& name) {
+  const std::vector<Layer>& layers = table.layers;
+  auto found = std::ranges::find(layers, name, &Layer::name);
+  if (found == layers.end() && name == shown_layer(""))
+    found = std::ranges::find(layers, "", &Layer::name);
+  if (found == layers.end()) return std::nullopt;
+  return size_t(found - layers.begin());
+}
+
+// Error (kUsage) if no layer matches.
+std::set<size_t> matching(const LayerTable& table, const std::string& pattern) {
+  if (const auto exact = exactly_named(table, pattern)) return {*exact};
+  std::set<size_t> numbers;
+  for (size_t i = 0; i < table.layers.size(); ++i) {
+    if (fnmatch(pattern.c_str(), typed_name(table.layers[i]).c_str(), 0) == 0) numbers.insert(i);
+  }
+  if (numbers.empty()) fail_no_layer(table, pattern);
+  return numbers;
 }
 
 }  // namespace
@@ -37,9 +58,19 @@ std::string shown_layer(const std::string& name) {
 }
 
 std::vector<size_t> layers_named(const LayerTable& table, const std::vector<std::string>& names) {
-  std::set<size_t> numbers;
-  for (const std::string& name : names) numbers.insert(layer_named(table, name));
-  return {numbers.begin(), numbers.end()};
+  std::set<size_t> chosen, excluded;
+  bool only_excludes = true;
+  for (const std::string& name : names) {
+    const bool excludes = name.starts_with('!') && !exactly_named(table, name);
+    only_excludes = only_excludes && excludes;
+    (excludes ? excluded : chosen).merge(matching(table, excludes ? name.substr(1) : name));
+  }
+  if (only_excludes) {
+    for (size_t i = 0; i < table.layers.size(); ++i) chosen.insert(i);
+  }
+  for (const size_t number : excluded) chosen.erase(number);
+  if (chosen.empty()) fail_usage("--layer: the patterns exclude every layer");
+  return {chosen.begin(), chosen.end()};
 }
 
 uint32_t LayerTable::default_root() const {
@@ -119,6 +150,7 @@ std::optional<LayerTable> decode_layers(const Header& header, std::span<const st
 }
 
 Colour palette_colour(std::string_view name) {
+  if (name.empty()) return kNeutralColour;
   constexpr uint64_t kHues = 48;
   constexpr double kTones[3][2] = {{0.85, 0.5}, {0.62, 0.5}, {0.95, 0.72}};  // bright; pale
   const uint64_t hash = checksum64(std::as_bytes(std::span(name)));

@@ -41,9 +41,10 @@ struct LayerTable {
   uint64_t default_voxels(uint64_t of_union) const;
 };
 
-// The numbers of the layers with these names, ascending, each once. "(unnamed)" is the empty name,
-// unless a layer has that very name. Error (kUsage), with the nearest name, if there is no such
-// layer.
+// The numbers of the layers that --layer chooses, ascending, each once. A name is that layer; any
+// other text is a shell pattern (*, ?, [..]), and "!PATTERN" excludes what it matches, of all
+// layers if nothing is chosen. "(unnamed)" is the empty name, unless a layer has that very name.
+// Error (kUsage), with the nearest name, if no layer matches, or none is left.
 std::vector<size_t> layers_named(const LayerTable& table, const std::vector<std::string>& names);
 
 std::vector<std::byte> encode_layers(const LayerTable& table);
@@ -57,7 +58,11 @@ std::optional<std::vector<Layer>> decode_entries(uint32_t count, std::span<const
 // voxels.
 std::optional<LayerTable> decode_layers(const Header& header, std::span<const std::byte> bytes);
 
-// The colour of a layer whose source has none: one of 48 hues in 3 tones, chosen by the name.
+// The grey of what has no layer, or no name and no colour.
+constexpr Colour kNeutralColour{0xbc, 0xb5, 0xaa};
+
+// The colour of a layer whose source has none: one of 48 hues in 3 tones, chosen by the name; grey
+// without a name.
 Colour palette_colour(std::string_view name);
 
 }  // namespace svdag

@@ -38,21 +38,7 @@ Colour default_colour(uint64_t i) {
   return {channel(0), channel(1), channel(2)};
 }
 
-// A rotation by quarter turns, mirrored or not: axis a comes from axis from[a], backwards if flip[a].
-struct Turn {
-  std::array<uint8_t, 3> from{0, 1, 2};
-  std::array<bool, 3> flip{};
-
-  // This turn after `first`.
-  Turn after(const Turn& first) const {
-    Turn both;
-    for (size_t a = 0; a < 3; ++a) {
-      both.from[a] = first.from[from[a]];
-      both.flip[a] = flip[a] != first.flip[from[a]];
-    }
-    return both;
-  }
-};
+using Turn = VoxTurn;
 
 struct Model {
   std::array<uint32_t, 3> size;
@@ -129,8 +115,9 @@ class ChunkReader {
 
 class VoxReader {
  public:
-  VoxReader(const File& file, LayerTable* layers)
+  VoxReader(const File& file, LayerTable* layers, int up)
       : file_(file),
+        to_grid_(vox_turn(up).inverse()),
         layers_(layers),
         labels_(file.path(), layers, [this](uint64_t label) { return layer_of(label); }) {}
 
@@ -138,10 +125,10 @@ class VoxReader {
     read_chunks();
     if (nodes_.empty()) {
       const size_t shown = std::min<size_t>(models_.size(), has_frames_ ? 1 : models_.size());
-      for (uint32_t i = 0; i < shown; ++i) place_model(i, middle_voxel(i), {});
+      for (uint32_t i = 0; i < shown; ++i) place_model(i, to_grid_.of(middle_voxel(i)), to_grid_);
     } else {
       count_visits(0, 0);
-      place_node(0, {}, {}, 0);
+      place_node(0, {}, to_grid_, 0);
     }
     Offset low{};  // minimum, if below 0
     for (const PlacedModel& placed : placed_) {
@@ -337,6 +324,7 @@ class VoxReader {
   }
 
   const File& file_;
+  Turn to_grid_;
   LayerTable* layers_;
   LabelNumbers labels_;
   std::optional<std::array<Colour, 256>> palette_;
@@ -350,8 +338,8 @@ class VoxReader {
 
 }  // namespace
 
-GridPlacement read_vox(const File& file, const VoxelSink& sink, LayerTable* layers) {
-  return VoxReader(file, layers).read(sink);
+GridPlacement read_vox(const File& file, const VoxelSink& sink, LayerTable* layers, int up) {
+  return VoxReader(file, layers, up).read(sink);
 }
 
 }  // namespace svdag

@@ -70,7 +70,8 @@ uint8_t colour_number(const LayerLabels& labels, const Voxel& voxel) {
 }
 
 // Returns the number of voxels of the model.
-uint64_t put_model(const VoxelWindow& window, const VoxelBox& box, int64_t side, Output* out) {
+uint64_t put_model(const VoxelWindow& window, const VoxelBox& box, int64_t side,
+                   const VoxTurn& turn, Output* out) {
   Chunk size("SIZE", out);
   for (int a = 0; a < 3; ++a) out->put(uint32_t(side));
   size.end();
@@ -78,7 +79,10 @@ uint64_t put_model(const VoxelWindow& window, const VoxelBox& box, int64_t side,
   const uint64_t count_at = out->size();
   out->put(uint32_t(0));
   const uint64_t count = for_each_voxel(window.walk, box, [&](const Voxel& voxel) {
-    for (const uint32_t x : voxel) out->put(uint8_t(x % kTile));
+    for (size_t a = 0; a < 3; ++a) {
+      const int64_t x = voxel[turn.from[a]] % kTile;
+      out->put(uint8_t(turn.flip[a] ? side - 1 - x : x));
+    }
     out->put(window.labels != nullptr ? colour_number(*window.labels, voxel) : uint8_t(1));
   });
   out->patch(count_at, uint32_t(count));  // at most 256^3
@@ -123,7 +127,7 @@ std::vector<LatticePoint> tiles_of(const VoxelWindow& window) {
 
 }  // namespace
 
-void write_vox(const VoxelWindow& window, const std::string& path) {
+void write_vox(const VoxelWindow& window, const std::string& path, int up) {
   if (window.voxels > kMaxVoxVoxels)
     fail_usage("vox holds at most " + format_count(kMaxVoxVoxels) + " voxels, this window has " +
                format_count(window.voxels) + ": export a coarser --level, or a part with --bounds");
@@ -132,6 +136,7 @@ void write_vox(const VoxelWindow& window, const std::string& path) {
                format_count(window.labels->layers().size()) + " layers: export one with --layer");
   const std::vector<LatticePoint> tiles = tiles_of(window);
   const int64_t side = std::min(kTile, window.grid.resolution());
+  const VoxTurn turn = vox_turn(up);
   Output out(path);
   out.put("VOX ");
   out.put(kVoxVersion);
@@ -143,7 +148,7 @@ void write_vox(const VoxelWindow& window, const std::string& path) {
       box.min[a] = std::max(box.min[a], window.box().min[a]);
       box.max[a] = std::min(box.max[a], window.box().max[a]);
     }
-    written += put_model(window, box, side, &out);
+    written += put_model(window, box, side, turn, &out);
   }
   SVDAG_ASSERT(written == window.voxels);
   // Node 0 places group 1; nodes 2 + 2i and 3 + 2i are the translation and the shape of model i.
@@ -155,11 +160,9 @@ void write_vox(const VoxelWindow& window, const std::string& path) {
   for (uint32_t i = 0; i < tiles.size(); ++i) out.put(2 + 2 * i);
   group.end();
   for (uint32_t i = 0; i < tiles.size(); ++i) {
-    const LatticePoint middle = tiles[i] * kTile + side / 2;
-    put_transform(
-        2 + 2 * i, 3 + 2 * i,
-        std::to_string(middle.x) + " " + std::to_string(middle.y) + " " + std::to_string(middle.z),
-        &out);
+    const auto [x, y, z] = turn.of(tiles[i] * kTile + side / 2);
+    put_transform(2 + 2 * i, 3 + 2 * i,
+                  std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z), &out);
     put_shape(3 + 2 * i, i, &out);
   }
   if (window.labels != nullptr) put_palette(window.labels->layers(), &out);

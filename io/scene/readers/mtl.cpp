@@ -233,11 +233,17 @@ MtlMaterials read_mtl(const File& obj, const MtlOptions& options) {
   return MtlReader(obj, options).take();
 }
 
-bool is_unread_mtl(const File& obj, std::string_view name, const MtlMaterials& materials) {
+std::optional<Omission> unread_mtl(const File& obj, std::string_view name,
+                                   const MtlMaterials& materials) {
   const std::filesystem::path folder = std::filesystem::path(obj.path()).parent_path();
-  return std::ranges::any_of(named_files(folder, name), [&](const std::string& path) {
-    return is_file(path) && std::ranges::find(materials.files, path) == materials.files.end();
-  });
+  std::optional<Omission> unread;
+  for (const std::string& path : named_files(folder, name)) {
+    if (!is_file(path))
+      unread = Omission::kMissingMaterials;
+    else if (std::ranges::find(materials.files, path) == materials.files.end())
+      return Omission::kMaterialFiles;
+  }
+  return unread;
 }
 
 const MtlTexture* cutting_texture(const std::string& name, const MtlMaterial& material,

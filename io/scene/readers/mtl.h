@@ -11,6 +11,7 @@
 #include "io/colour.h"
 #include "io/scene/cutouts/cut_out.h"
 #include "io/scene/decoders/image.h"
+#include "io/scene/mesh/left_out.h"
 #include "io/scene/mesh/name_filter.h"
 #include "streaming/file/file.h"
 
@@ -58,8 +59,10 @@ struct MtlOptions {
 // they exist. What cannot be read in them is as if it were missing.
 MtlMaterials read_mtl(const File& obj, const MtlOptions& options);
 
-// Whether a line `mtllib NAME` names a file that exists, but is none of them.
-bool is_unread_mtl(const File& obj, std::string_view name, const MtlMaterials& materials);
+// What is left out of a line `mtllib NAME`: a file that exists, but is none of them, or one that
+// does not exist; nothing if all are read.
+std::optional<Omission> unread_mtl(const File& obj, std::string_view name,
+                                   const MtlMaterials& materials);
 
 // What cuts a material out: its map_d, or, if `names` has the name, its map_Kd; null: nothing.
 const MtlTexture* cutting_texture(const std::string& name, const MtlMaterial& material,

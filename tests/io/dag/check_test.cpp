@@ -175,8 +175,11 @@ TEST(CheckDag, ReportsOtherFormatsAndVersions) {
     check_dag(File::open_read(path));
     FAIL();
   } catch (const Error& error) {
-    EXPECT_STREQ(error.what(),
-                 (path + ": is not a svdag file (its first bytes are not \\x89SVDAG)").c_str());
+    EXPECT_STREQ(
+        error.what(),
+        (path + ": is not a .svdag (its first bytes are not \\x89SVDAG): svdag build makes "
+                "one of a scene")
+            .c_str());
   }
   std::string newer = make_file(path, 4, 10);
   newer[8] = kMaxVersion + 1;

@@ -36,9 +36,9 @@ class Import(unittest.TestCase):
         cls.empty = BAKERY.bake("empty", askew(), "-r", "32", "--bounds=900,900,900,901,901,901")
 
     def read(self, data, name, *options):
-        """Imports `data`; the Python reader requires the canonical form."""
+        """Imports `data`, with its axes; the Python reader requires the canonical form."""
         (BAKERY.folder / name).write_bytes(data)
-        return self.imported(name, *options)
+        return self.imported(name, *options, *(["--up", "z"] if name.endswith(".vox") else []))
 
     def imported(self, name, *options):
         BAKERY.run("svdag", "import", name, "-o", "imported.svdag", "-q", *options)
@@ -199,6 +199,14 @@ class Import(unittest.TestCase):
             data = write_foreign.vox((left, sizes[0]), (right, sizes[1]), places=places)
             with self.subTest(shift=shift):
                 self.assertEqual(nodes_of(self.read(data, "two.vox", "-r", "32")), nodes_of(self.small))
+
+    def test_the_z_of_a_vox_becomes_the_axis_that_is_up(self):
+        (BAKERY.folder / "up.vox").write_bytes(write_foreign.vox((self.few, (32, 32, 32))))
+        for up, turned in {"x": lambda x, y, z: (z, x, y), "y": lambda x, y, z: (x, z, 31 - y), "z": lambda x, y, z: (x, y, z)}.items():
+            for options in [["--up", up]] + ([[]] if up == "y" else []):
+                with self.subTest(up=up, options=options):
+                    found = {tuple(v) for v in self.imported("up.vox", "-r", "32", *options).voxels().tolist()}
+                    self.assertEqual(found, {turned(*v) for v in self.few.tolist()})
 
     def test_hidden_voxels_of_a_vox_file_are_ignored(self):
         shown, other = self.few[::2], self.few[1::2]

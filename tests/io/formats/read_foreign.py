@@ -316,7 +316,8 @@ def read_vox(path):
 
     place(0, [0, 0, 0])
     demand(not nodes, "nodes without a position")
-    return Found(None, ordered(numpy.concatenate(voxels)))
+    x, y, z = numpy.concatenate(voxels).T
+    return Found(None, ordered(numpy.stack([x, z, -1 - y], 1)))  # z is up: y comes from z
 
 
 def read_ply(path):

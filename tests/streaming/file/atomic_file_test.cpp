@@ -88,25 +88,29 @@ TEST(AtomicFile, SizeIsTheFurthestByteWritten) {
   EXPECT_EQ(folder.read("out"), "01ab456789x");
 }
 
-TEST(AtomicFile, ASymlinkIsReplacedAndNotFollowed) {
+TEST(AtomicFile, WritesWhereSymlinksPoint) {
   const TempFolder folder;
-  folder.write("precious", "keep");
-  std::filesystem::create_symlink(folder.file("precious"), folder.file("out"));
-  AtomicFile file(folder.file("out"));
-  file.append("new");
-  file.commit();
-  EXPECT_EQ(folder.read("precious"), "keep");
-  EXPECT_FALSE(std::filesystem::is_symlink(folder.file("out")));
+  std::filesystem::create_directory(folder.file("disk"));
+  for (const bool exists : {true, false}) {
+    const std::string name = exists ? "old" : "new", file = "disk/" + name;
+    if (exists) folder.write(file, "before");
+    std::filesystem::create_symlink(file, folder.file(name));  // relative to its own folder
+    std::filesystem::create_symlink(folder.file(name), folder.file(name + "_link"));
+    AtomicFile output(folder.file(name + "_link"));
+    output.append("after");
+    EXPECT_EQ(std::filesystem::exists(folder.file(file)), exists);
+    output.commit();
+    EXPECT_EQ(folder.read(file), "after");
+    for (const char* end : {"", "_link"})
+      EXPECT_TRUE(std::filesystem::is_symlink(folder.file(name + end)));
+  }
 }
 
-TEST(AtomicFile, ADanglingSymlinkIsReplaced) {
+TEST(AtomicFile, RejectsALoopOfSymlinks) {
   const TempFolder folder;
-  std::filesystem::create_symlink(folder.file("gone"), folder.file("out"));
-  AtomicFile file(folder.file("out"));
-  file.append("new");
-  file.commit();
-  EXPECT_EQ(folder.read("out"), "new");
-  EXPECT_EQ(folder.entries(), 1U);
+  std::filesystem::create_symlink("b", folder.file("a"));
+  std::filesystem::create_symlink("a", folder.file("b"));
+  EXPECT_SVDAG_ERROR(AtomicFile(folder.file("a")), ExitCode::kOutput, "loop of symbolic links");
 }
 
 TEST(AtomicFile, RejectsTargetsThatAreNotRegularFiles) {

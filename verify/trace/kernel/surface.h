@@ -67,12 +67,30 @@ SVDAG_HD inline int brick_coordinate(int bit, int axis) {
   return (bit >> (4 - axis) & 2) + (bit >> (2 - axis) & 1);
 }
 
-// Adds the voxels of the brick with corner (x, y, z), relative to the hit.
-SVDAG_HD inline void add_brick(uint64_t brick, int x, int y, int z, Moments* moments) {
-  for (int bit = 0; brick != 0; ++bit, brick >>= 1) {
-    if (brick & 1U)
-      moments->add(x + brick_coordinate(bit, 0), y + brick_coordinate(bit, 1),
-                   z + brick_coordinate(bit, 2));
+// Whether a voxel of the cube with this corner, relative to the hit, and side is within
+// kNormalRadius.
+SVDAG_HD inline bool is_near(const int corner[3], int side) {
+  int square = 0;
+  for (int a = 0; a < 3; ++a) {
+    const int low = corner[a], high = corner[a] + side - 1;
+    const int nearest = low > 0 ? low : high < 0 ? high : 0;
+    square += nearest * nearest;
+  }
+  return square <= kNormalRadius * kNormalRadius;
+}
+
+// Adds the voxels of the brick with this corner, relative to the hit: of the eight cubes of 2^3
+// voxels, those that are near.
+SVDAG_HD inline void add_brick(uint64_t brick, const int corner[3], Moments* moments) {
+  for (int first = 0; brick != 0; first += 8, brick >>= 8) {
+    const int cube[3] = {corner[0] + brick_coordinate(first, 0),
+                         corner[1] + brick_coordinate(first, 1),
+                         corner[2] + brick_coordinate(first, 2)};
+    if ((brick & 0xffU) == 0 || !is_near(cube, 2)) continue;
+    for (int bit = 0; bit < 8; ++bit) {
+      if (brick >> bit & 1U)
+        moments->add(cube[0] + (bit >> 2), cube[1] + (bit >> 1 & 1), cube[2] + (bit & 1));
+    }
   }
 }
 
@@ -90,8 +108,7 @@ SVDAG_HD inline Moments moments_around(const DagView& dag, const uint32_t voxel[
       corner[a] = int(4 * at[a]) - int(voxel[a]);
       inside = inside && at[a] < bricks;
     }
-    if (inside)
-      add_brick(path.brick(at[0], at[1], at[2]), corner[0], corner[1], corner[2], &moments);
+    if (inside && is_near(corner, 4)) add_brick(path.brick(at[0], at[1], at[2]), corner, &moments);
   }
   return moments;
 }

@@ -25,12 +25,14 @@ void require(bool condition, const std::string& path, const char* sentence) {
 // Checked first, because the other fields have no meaning in files of another format.
 void check_magic(const File& file, uint64_t size) {
   unsigned char magic[sizeof kMagic];
-  if (size < sizeof magic) fail_input(file.path(), "is not a svdag file (it is too short)");
+  if (size < sizeof magic) fail_input(file.path(), "is not a .svdag (it is too short)");
   file.read_at(0, std::as_writable_bytes(std::span(magic)));
   if (std::memcmp(magic, kPackedMagic, sizeof magic) == 0)
     fail_input(file.path(), "is packed: trace the result of svdag unpack");
   if (std::memcmp(magic, kMagic, sizeof magic) != 0)
-    fail_input(file.path(), "is not a svdag file (its first bytes are not \\x89SVDAG)");
+    fail_input(file.path(),
+               "is not a .svdag (its first bytes are not \\x89SVDAG): svdag build makes one of a "
+               "scene");
 }
 
 // Checks the size in the header before allocating the memory.

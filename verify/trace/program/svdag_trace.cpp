@@ -222,7 +222,12 @@ uint64_t memory_for_file(const TraceOptions& options) {
 int run(const TraceOptions& options) {
   check_outputs(options);
   PlainFile file = read_plain_file(options.file, memory_for_file(options));
-  if (!options.layers.empty()) show_layer(&file, layers_named(file.layers, options.layers)[0]);
+  if (!options.layers.empty()) {
+    const std::vector<size_t> chosen = layers_named(file.layers, options.layers);
+    if (chosen.size() > 1)
+      fail_usage("--layer: one layer can be traced: make a file of several with svdag convert");
+    show_layer(&file, chosen.front());
+  }
   const Workload work = make_workload(options, file);
   Output dump(options.dump), picture(options.picture);
   Verdict verdict;

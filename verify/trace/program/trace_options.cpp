@@ -68,8 +68,6 @@ std::optional<TraceOptions> parse_trace_options(int argc, char** argv) {
   TraceOptions options;
   add_options(&app, &options);
   if (read_command_line(&app, argc, argv)) return std::nullopt;
-  if (options.layers.size() > 1)
-    fail_usage("--layer: one layer can be traced: make a file of several with svdag convert");
   return options;
 }
 

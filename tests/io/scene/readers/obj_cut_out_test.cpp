@@ -136,6 +136,7 @@ TEST_F(ObjCut, MaterialFilesThatAreNotReadAreCounted) {
   const std::string comment = "#" + std::string(70000, ' ') + '\n';
   cuts("d 1\n", comment + "mtllib late.mtl\nmtllib a.mtl\nmtllib none.mtl\n");
   EXPECT_EQ(left_out_[size_t(Omission::kMaterialFiles)], 1U);
+  EXPECT_EQ(left_out_[size_t(Omission::kMissingMaterials)], 1U);
 }
 
 TEST_F(ObjCut, BrokenFilesAreErrors) {

@@ -92,7 +92,7 @@ TEST_F(PlainFileTest, AFileOfAnotherFormatIsReportedAsSuch) {
   }
   write({});
   EXPECT_SVDAG_ERROR(read_plain_file(path()), ExitCode::kBadInput,
-                     "is not a svdag file (it is too short)");
+                     "is not a .svdag (it is too short)");
 }
 
 TEST_F(PlainFileTest, ATruncatedFileIsDamaged) {
