@@ -261,6 +261,16 @@ void MeshWriter::draw_recorded() {
   replay();
 }
 
+void MeshWriter::rare_triangle(uint64_t a, uint64_t b, uint64_t c) {
+  if (!colours_.empty())
+    return out_.add_textured({{stored(a), stored(b), stored(c)}}, TextureCorners(),
+                             {colours_[a], colours_[b], colours_[c]});
+  record(a);
+  record(b);
+  record(c);
+  record_end();
+}
+
 void MeshWriter::finish_broken() {
   if (marks_) throw BoxIsUncertain();  // a triangle before the Error may be invalid
   draw_recorded();

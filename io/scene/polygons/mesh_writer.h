@@ -99,14 +99,8 @@ class MeshWriter {
 
   void triangle(uint64_t a, uint64_t b, uint64_t c) {
     if (points_ != nullptr) return out_.add(points_[a], points_[b], points_[c]);
-    if (!colours_.empty())
-      return out_.add_textured({{stored(a), stored(b), stored(c)}}, TextureCorners(),
-                               {colours_[a], colours_[b], colours_[c]});
-    if (!positions_->spilled()) return out_.add(stored(a), stored(b), stored(c));
-    record(a);
-    record(b);
-    record(c);
-    record_end();
+    if (!colours_.empty() || positions_->spilled()) return rare_triangle(a, b, c);
+    out_.add(stored(a), stored(b), stored(c));
   }
   void corner(uint64_t i) {
     if (points_ != nullptr) return triangulator_.corner(points_[i]);
@@ -155,10 +149,12 @@ class MeshWriter {
   void finish_broken();
 
  private:
-  Point stored(uint64_t i) const {
+  [[gnu::always_inline]] Point stored(uint64_t i) const {
     const Point p = (*positions_)[i];
     return is_placed_ ? to_world_(p) : p;
   }
+  // Of coloured or spilled vertices. Not inline, so that the readers' loops are short.
+  void rare_triangle(uint64_t a, uint64_t b, uint64_t c);
   bool fits(uint64_t bytes) const {
     return options_.spill == nullptr || bytes <= options_.spill->share;
   }
