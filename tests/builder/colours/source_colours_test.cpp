@@ -185,7 +185,7 @@ TEST_F(SourceColours, BinaryPlyFacesHaveColours) {
   const auto put = [&](auto value) {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
   };
-  for (const float x : {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}) put(x);
+  for (const int x : {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}) put(float(x));
   for (const int32_t first : {0, 2}) {
     put(uint8_t(3));
     for (const int32_t i : {first, first + 1, (first + 2) % 4}) put(i);
