@@ -210,8 +210,8 @@ $ svdag info two.svdag --layers | tail -3
 |                   12              6              6  #f2d0ae  box.obj
 |              432,513          3,212              0  #9e634f  scan.ply
 $ svdag-verify mesh two.svdag scan.ply box.obj | tail -3
-| layer      box.obj, 12 voxels in the file, 12 by the judge, 0 missing, 0 extra
-| layer      scan.ply, 432,513 voxels in the file, 432,513 by the judge, 0 missing, 0 extra
+| extra      0
+| layers     2 layers agree
 | ok: every voxel agrees with the scene
 $ svdag build scan.ply box.obj -o small.svdag -r 128 --rule solid --layers file -m 8M -q && cmp two.svdag small.svdag
 $ svdag build scan.ply open.obj -o mixed.svdag -r 128 --rule solid --open surface --layers file | sed 's/, [0-9.]* s$//'
@@ -220,8 +220,8 @@ $ svdag build scan.ply open.obj -o mixed.svdag -r 128 --rule solid --open surfac
 |   open parts, baked as surfaces: 1
 |   open layers, baked as surfaces: 1
 $ svdag-verify mesh mixed.svdag scan.ply open.obj | tail -3
-| layer      open.obj, 12 voxels in the file, 12 by the judge, 0 missing, 0 extra
-| layer      scan.ply, 432,513 voxels in the file, 432,513 by the judge, 0 missing, 0 extra
+| extra      0
+| layers     2 layers agree
 | ok: every voxel agrees with the scene
 $ svdag-verify mesh mixed.svdag scan.ply open.obj --sample 100 | tail -1
 | ok: no sampled voxel differs

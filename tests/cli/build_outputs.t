@@ -132,6 +132,8 @@ $ stat -c '%n %h %F' a.svdag b.svdag
 | a.svdag 1 regular file
 | b.svdag 1 regular file
 $ list "{$A}, {\"scene\": \"h.ply\", \"resolution\": 16, \"output\": \"c.svdag\"}"
+| svdag: l.json: bake 2: c.svdag would be written twice: choose another name for one of the results
+| exit 2
 $ ls
 | a.svdag
 | b.svdag
@@ -260,12 +262,13 @@ $ svdag build r.ply -r 64 -o dangling.svdag -q
 $ cmp file r.svdag && cmp new r.svdag
 $ cmp link.svdag r.svdag && cmp dangling.svdag r.svdag
 $ ls -F
-| dangling.svdag
+| dangling.svdag@
 | device.svdag@
 | file
 | folder.svdag/
-| link.svdag
+| link.svdag@
 | list.json
+| new
 | pipe.npz|
 | pipe.png|
 | pipe.svdag|

@@ -114,14 +114,14 @@ $ python3 -B $TESTS/broken_paint.py
 $ svdag build paint.gltf -o a.svdag -r 64 --colours --colour-level 6 | sed 's/, [0-9.]* s$//'
 | a.svdag: 64^3, 4 triangles, 8,192 voxels, 9 nodes, 2.2 KiB (2.2 bits per voxel)
 |   8,737 colours down to level 6, 400 bytes (0.366 bits each), a cube spans 0.016 texels
-|   1 vertices or faces have a colour beyond 1, which is read as 1
-|   1 triangles have the colour of their material alone: a texture coordinate is NaN, infinite or beyond 2^40 texels
+|   1 vertex or face has a colour beyond 1, which is read as 1
+|   1 triangle has the colour of the material alone: a texture coordinate is NaN, infinite or beyond 2^40 texels
 |   colour hash a04f41ff252a9305d415540e177d8044
 $ printf 'v 0 0 0 255 128 0\nv 1 0 0 1 1 1\nv 0 1 0 0 0 0\nf 1 2 3\n' > bright.obj
 $ svdag build bright.obj -o b.svdag -r 64 --colours | sed 's/, [0-9.]* s$//'
-| b.svdag: 64^3, 1 triangles, 2,143 voxels, 13 nodes, 1.9 KiB (7.2 bits per voxel)
+| b.svdag: 64^3, 1 triangle, 2,143 voxels, 13 nodes, 1.9 KiB (7.2 bits per voxel)
 |   47 colours down to level 3, 128 bytes (21.8 bits each), a cube spans 0.13 texels
-|   1 vertices or faces have a colour beyond 1, which is read as 1
+|   1 vertex or face has a colour beyond 1, which is read as 1
 |   colour hash e440028c6acdc7fb0c2fa31b1cd9b84c
 
 ## colour_resumes

@@ -90,7 +90,7 @@ $ sha256sum *
 | 352d1c21b7c09f1ef995868a908ade38f115442d9fa88c5e9b7bae1fafda2f83  r.ply2
 | 01f61588b16629acb19da1feda9f2f5bba0dbcb5a36dfdfa44aeea082d043d03  r.svo
 | df6ee19e690a7bd55dd1f850ecb44e8518afb7e6f1cd242ee758a33367fa1eaf  r.symvox
-| eebca4b2dc50403902fb34ee2774da550a8a42e146cc101dde6ff4cbb8ef9000  r.vox
+| 533c7476e4e496eb9d5352802747bc5b6b811e9b0b20c69a0d1ca9566708d99a  r.vox
 | 33dda1980206bbbe13a558781ff8ba1bebfb15ce43bfac4f4eada023cec17e4b  r16.svo
 | ec428c4b8679b018836bf0239cc40d50557b896a3b9e3063a2f7602b2d33aca7  r64.basic_dag.dag.bin
 
@@ -172,6 +172,7 @@ $ svdag export s.svdag --format octree -o s.oct
 ! svdag: s.oct: the name must end in .octree (two more files are written beside it)
 ? 2
 $ svdag export s.svdag -o s.npz --bounds=900,0,0,901,1,1
+! svdag: --bounds: the box meets no voxel of the grid that may be set
 ? 2
 $ svdag-scene rectangle -q -o r.ply
 $ svdag build r.ply -r 32K -o r.svdag -q

@@ -67,7 +67,7 @@ $ svdag export other.svdag -o x.vox
 ? 3
 $ head -c 40 other.svdag > cut.svdag
 $ svdag-verify check cut.svdag
-! svdag-verify: cut.svdag: is not a svdag file (it is too short)
+! svdag-verify: cut.svdag: is not a .svdag (its first bytes are not \x89SVDAG): svdag build makes one of a scene
 ? 3
 $ svdag import other.svdag -o back.svdag -q
 $ svdag-verify diff back.svdag r.svdag
@@ -180,7 +180,7 @@ $ svdag-verify view t.svdag --to site --keep
 ! svdag-verify: --to cannot be combined with --keep; see svdag-verify view --help
 ? 2
 $ svdag-verify view t.off
-! svdag-verify: t.off: is not a svdag file (it is too short)
+! svdag-verify: t.off: is not a .svdag (its first bytes are not \x89SVDAG): svdag build makes one of a scene
 ? 3
 $ svdag build t.off -r 64 --bounds=50,50,50,60,60,60 -q -o empty.svdag
 $ svdag-verify view empty.svdag

@@ -5,7 +5,7 @@
 $ printf 'v 0 0 0\nv 8 0 0\nv 0 8 0\nv 8 8 8\nv 0 0 8\nf 4 3 5\no floor\nf 1 2 3\no wall\nf 1 4 5\no roof\nf 3 4 5\nf 2 4 5\n' > a.obj
 $ svdag build a.obj -o a.svdag -r 256 --layers object -q
 $ svdag info a.svdag --layers | tail -4
-|               98,686             19              1  #634f9e  (unnamed)
+|               98,686             19              1  #bcb5aa  (unnamed)
 |               33,151             19              5  #aef2bf  floor
 |              196,350             47             10  #d96c95  roof
 |               98,941             43              9  #9e804f  wall
@@ -23,6 +23,7 @@ $ svdag edit wall.svdag floor.svdag --union -q -o edited.svdag && cmp two.svdag 
 | the union is the OR
 # One layer keeps its name and colour.
 $ svdag info wall.svdag --layers | tail -1
+|               98,941             43              0  #9e804f  wall
 # One name, twice, is that layer alone. All names are the whole file.
 $ svdag convert a.svdag -q -o again.svdag --layer wall --layer wall && cmp wall.svdag again.svdag
 $ svdag convert a.svdag -q -o all.svdag --layer roof --layer floor --layer wall --layer '(unnamed)' && cmp a.svdag all.svdag
@@ -31,8 +32,10 @@ $ svdag convert a.svdag -q -o x.svdag --layer '[fw]*' && cmp x.svdag two.svdag
 $ svdag convert a.svdag -q -o x.svdag --layer '*' --layer '!(unnamed)' --layer '!r*f' && cmp x.svdag two.svdag
 $ svdag convert a.svdag -q -o x.svdag --layer '!(unnamed)' --layer '!roof' && cmp x.svdag two.svdag
 $ svdag convert a.svdag -q -o x.svdag --layer '!*'
+! svdag: --layer: the patterns exclude every layer
 ? 2
 $ svdag convert a.svdag -q -o x.svdag --layer '!glass*'
+! svdag: --layer: the file has no layer "glass*" (svdag info --layers lists them)
 ? 2
 # Every form of a file, and the other programs.
 $ svdag convert a.svdag -q -o compact.svdag --layout compact && svdag pack a.svdag -q -o a.pack
@@ -45,8 +48,8 @@ $ svdag-verify render a.svdag -o x.png --layer wall --layer floor --size 64x36
 | x.png: 64x36, colour
 $ svdag-verify render two.svdag -o y.png -q --size 64x36 && cmp x.png y.png
 $ svdag-verify diff a.svdag two.svdag --layer wall --layer floor | tail -4
-| layer     floor, 33,151 in both, 0 only A, 0 only B
-| layer     wall, 98,941 in both, 0 only A, 0 only B
+| only B    0
+| layers    2 layers agree
 | clusters  0
 | same
 # The unnamed layer has the name that is shown, unless a layer has that very name.
@@ -55,7 +58,7 @@ $ svdag convert a.svdag -q -o unnamed.svdag --layer '(unnamed)' && svdag-verify 
 | voxels  98,686
 $ printf 'v 0 0 0\nv 8 0 0\nv 0 8 0\nv 0 0 1\nf 1 2 3\no (unnamed)\nf 1 2 4\n' > b.obj
 $ svdag build b.obj -o b.svdag -r 64 --layers object -q && svdag info b.svdag --layers | tail -2
-|                2,143             13              2  #634f9e  (unnamed)
+|                2,143             13              2  #bcb5aa  (unnamed)
 |                  320             20             15  #6cd9a3  (unnamed)
 $ svdag export b.svdag -o b.npz --layer '(unnamed)'
 | b.npz: npz, 320 voxels of level 6 (64^3)
@@ -70,7 +73,7 @@ $ svdag convert a.svdag -o x.svdag --layer wall floor
 ! svdag: unexpected argument: floor; see svdag convert --help
 ? 2
 $ svdag convert edited.svdag -o x.svdag --layer '(unnamed)' --layer wall
-! svdag: --layer: the file has no layers
+! svdag: --layer: the file has no layer "(unnamed)" (svdag info --layers lists them)
 ? 2
 
 ## edit_layers
@@ -116,12 +119,12 @@ $ svdag edit half_mask.svdag half.svdag -o b.svdag --difference
 |   content hash bf0cb0e4199f9a0b5e8e87921f659309
 $ svdag edit half.svdag mask.svdag -o b.svdag --union && svdag info b.svdag --layers | grep unnamed
 | b.svdag: 128^3, 81,769 voxels, 10 layers, 2,019 nodes, 29.3 KiB
-|   content hash efd3136dc38febf18fa68de4944d880a
-|               81,769          1,469              0  #634f9e  (unnamed)
+|   content hash 0af11772e0ef6cb4ac8b5c46fbb5a842
+|               81,769          1,469              0  #bcb5aa  (unnamed)
 # One layer.
 $ svdag edit a.svdag half.svdag -o b.svdag --difference --layer roof
-| b.svdag: 128^3, 8,095 voxels, 339 nodes, 6.1 KiB
-|   content hash a981f133c7ea5d74711a3d8a4b885efa
+| b.svdag: 128^3, 8,095 voxels, 1 layer, 339 nodes, 6.2 KiB
+|   content hash 77922411067a5f408d24acd788052d67
 $ svdag edit rest.svdag -o c.svdag --layer roof -q && svdag-verify diff b.svdag c.svdag -q
 $ for f in half rest again coarse b; do svdag-verify check $f.svdag | tail -1; done
 | ok: sound, in canonical order and minimal
@@ -173,8 +176,7 @@ $ svdag export plain.svdag --format hashdag -o c --colours
 ! svdag: --colours: plain.svdag has no layers (svdag build --layers)
 ? 2
 $ svdag export a.svdag --format hashdag -o c --colours --layer one
-! svdag: --colours: a.svdag has no layers when one --layer is chosen: choose several, or none
-? 2
+| c1k.basic_dag.dag.bin: hashdag, 525,823 voxels of level 10 (1K^3)
 $ svdag export empty.svdag --format hashdag -o c.basic_dag.dag.bin --colours
 ! svdag: --colours: there is no voxel to colour
 ? 2
@@ -194,6 +196,8 @@ $ ls
 | a.svdag
 | a1k.basic_dag.uncompressed_colors.bin
 | b1k.basic_dag.dag.bin
+| c1k.basic_dag.dag.bin
+| c1k.basic_dag.uncompressed_colors.bin
 | d1k.basic_dag.dag.bin
 | empty.svdag
 | plain.svdag
@@ -526,9 +530,9 @@ $ for name in f.dae f.fbx f.3mf f.3ds orange.dae orange.fbx textured.dae; do svd
 | f.fbx
 | #cbd96c stone
 | f.3mf
-| #634f9e (unnamed)
+| #bcb5aa (unnamed)
 | f.3ds
-| #634f9e (unnamed)
+| #bcb5aa (unnamed)
 | orange.dae
 | #ff8000 stone
 | orange.fbx
@@ -563,8 +567,8 @@ $ for file in a.svdag compact.svdag a.pack; do svdag-verify check $file | tail -
 | ok: sound, in canonical order and minimal
 | ok: sound, in canonical order and minimal
 | ok: sound, in canonical order and minimal
-$ svdag-verify mesh compact.svdag atrium.obj | grep -c "0 missing, 0 extra"
-| 9
+$ svdag-verify mesh compact.svdag atrium.obj | grep layers
+| layers     9 layers agree
 $ svdag-verify mesh a.svdag atrium.obj --sample 1000 | tail -1
 | ok: no sampled voxel differs
 $ svdag build atrium.obj -o union.svdag -r 256 -q && svdag-verify diff a.svdag union.svdag -q && echo "the union is the bake without layers"
@@ -578,7 +582,7 @@ $ svdag-verify render a.svdag -o a.png --size 64x36
 | a.png: 64x36, colour
 $ svdag-verify render compact.svdag -o c.png --size 64x36 -q && cmp a.png c.png
 $ svdag-verify render a.svdag -o l.png --size 64x36 --layer leaves
-| l.png: 64x36, primary
+| l.png: 64x36, colour
 # Frames.
 $ svdag-scene scan -n 3K --frames 3 -q -o wave.ply
 $ svdag build wave_*.ply -o wave.svdag -r 64 --layers file --no-union -q && svdag info wave.svdag --layers | tail -9
@@ -594,9 +598,9 @@ $ svdag build wave_*.ply -o wave.svdag -r 64 --layers file --no-union -q && svda
 $ svdag-verify check wave.svdag | tail -1
 | ok: sound, in canonical order and minimal
 $ svdag-verify mesh wave.svdag wave_*.ply | tail -4
-| layer      wave_0001.ply, 13,189 voxels in the file, 13,189 by the judge, 0 missing, 0 extra
-| layer      wave_0002.ply, 13,251 voxels in the file, 13,251 by the judge, 0 missing, 0 extra
-| layer      wave_0003.ply, 13,188 voxels in the file, 13,188 by the judge, 0 missing, 0 extra
+| judge      integer: exact clipping
+| triangles  8,100
+| layers     3 layers agree
 | ok: every voxel agrees with the scene
 $ svdag-verify mesh wave.svdag wave_*.ply --judge openvdb
 ! svdag-verify: wave.svdag: has layers without their union, which --judge openvdb would judge: use svdag-verify mesh, or one layer (svdag convert --layer)

@@ -126,14 +126,14 @@ $ printf '%s' '{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"no
 >   "bufferViews":[{"buffer":0,"byteLength":36}],
 >   "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}' >puppet.gltf
 $ svdag build puppet.gltf -r 64 -o puppet.svdag | tail -n +2
-|   1 triangles are read as stored: skins and morph targets are not applied
+|   1 triangle is read as stored: skins and morph targets are not applied
 $ svdag info puppet.gltf
 | puppet.gltf: 1 triangle, 3 positions, 1 component
 |   bounds (0, 0, 0) .. (1, 1, 0)
 |   0 triangles of zero area, 0 of them with two equal corners; 0 repeated triangles
 |   3 open edges, 0 non-manifold edges
 |   not closed at 64K^3: 3 open edges, the first at (1, 0, 0)
-|   1 triangles are read as stored: skins and morph targets are not applied
+|   1 triangle is read as stored: skins and morph targets are not applied
 
 ## build_gzip
 # A scene that was compressed with gzip, in every format: same voxels, and nothing is left behind.
@@ -152,6 +152,14 @@ $ cat > t.obj <<'OBJ'
 $ printf 'OFF\n3 1 0\n0 0 0\n9 0 1\n0 7 2\n3 0 1 2\n' > t.off
 $ printf 'solid a\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 9 0 1\nvertex 0 7 2\nendloop\nendfacet\nendsolid\n' > t.stl
 $ for kind in glb obj ply fbx; do cp t.stl x.$kind; svdag build x.$kind -o x.svdag -r 64 2>&1 || echo "exit $?"; done
+| svdag: x.glb: is an STL under the name of another format: rename it to .stl
+| exit 3
+| svdag: x.obj: is an STL under the name of another format: rename it to .stl
+| exit 3
+| svdag: x.ply: is an STL under the name of another format: rename it to .stl
+| exit 3
+| svdag: x.fbx: is an STL under the name of another format: rename it to .stl
+| exit 3
 $ svdag build t.obj -o t.svdag -r 64 -q
 $ for name in t.obj t.off t.stl; do
 >   gzip $name
@@ -181,6 +189,10 @@ $ ls -A
 | t.off.gz
 | t.stl.gz
 | t.svdag
+| x.fbx
+| x.glb
+| x.obj
+| x.ply
 
 ## build_missing_scene
 $ svdag build missing.ply -r 64 -o r.svdag

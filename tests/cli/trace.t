@@ -114,7 +114,7 @@ $ trace plain.svdag --layer clot
 ! svdag-trace: --layer: the file has no layer "clot" (svdag info --layers lists them)
 ? 2
 $ trace cloth.svdag --layer cloth
-! svdag-trace: --layer: the file has no layers
+! svdag-trace: --layer: the file has no layer "cloth" (svdag info --layers lists them)
 ? 2
 $ svdag-verify trace plain.svdag a.obj --rays 20000 | grep -E "layers|ok"
 | layers      0 triangle hits are in voxels that are not in their layer, 13,561 judged
@@ -154,8 +154,8 @@ $ for name in folder folder/ pipe none.svdag r.ply scan.ply; do
 ! svdag-trace: folder/: is a folder: name a file in it
 ! svdag-trace: pipe: is not a regular file
 ! svdag-trace: none.svdag: cannot be opened: no such file or folder
-! svdag-trace: r.ply: is not a svdag file (its first bytes are not \x89SVDAG)
-! svdag-trace: scan.ply: is not a svdag file (its first bytes are not \x89SVDAG)
+! svdag-trace: r.ply: is not a .svdag (its first bytes are not \x89SVDAG): svdag build makes one of a scene
+! svdag-trace: scan.ply: is not a .svdag (its first bytes are not \x89SVDAG): svdag build makes one of a scene
 
 ## trace_other_picture
 # A picture format that is not supported, and a light of nearly infinite size.

@@ -24,17 +24,23 @@ $ for line in "check r.svdag" "verify check r.svdag" "trace r.svdag" "help rende
 | exit 3
 # The judge needs a .svdag, and names it first.
 $ svdag-verify check r.ply
+! svdag-verify: r.ply: is not a .svdag (its first bytes are not \x89SVDAG): svdag build makes one of a scene
 ? 3
 $ svdag-verify mesh r.ply r.svdag
+! svdag-verify: r.svdag: is the .svdag: name it before the scene
 ? 2
 # Points are not arguments, and an option is not a topic.
 $ svdag query r.svdag 1 -2 3
+! svdag: points are read from standard input: echo 1 -2 3 | svdag query r.svdag
 ? 2
 $ svdag help layers
+! svdag: "layers" is an option: svdag build --layers, svdag batch --layers, svdag plan --layers, svdag info --layers; see the help of these commands
 ? 2
 $ svdag version
+! svdag: unknown command "version" of svdag; did you mean svdag --version?
 ? 2
 $ svdag build r.ply --res 64 -o x.svdag
+! svdag: unknown option --res of svdag build; did you mean --resolution?
 ? 2
 $ svdag-verify build r.ply 2>&1
 | svdag-verify: unknown command "build" of svdag-verify; did you mean svdag build?

@@ -39,7 +39,7 @@ $ svdag biuld --help 2>&1
 ## verify_not_a_dag
 $ svdag-scene rectangle -q -o r.ply
 $ svdag-verify check r.ply
-! svdag-verify: r.ply: is not a svdag file (it is too short)
+! svdag-verify: r.ply: is not a .svdag (its first bytes are not \x89SVDAG): svdag build makes one of a scene
 ? 3
 
 ## verify_report

@@ -148,10 +148,54 @@ $ svdag-scene atrium -o a.obj -q
 $ svdag build a.obj -o a.svdag -r 64 --layers material -q
 $ svdag build a.obj -o b.svdag -r 64 --layers material -q --exclude material:vase --allow-empty
 $ svdag-verify diff a.svdag a.svdag
+| compared  at 64^3, 136 pairs of nodes
+| both      20,739 voxels
+| only A    0
+| only B    0
+| layers    9 layers agree
+| clusters  0
+| same
 $ svdag-verify diff a.svdag b.svdag --show 0
+| compared  at 64^3, 136 pairs of nodes
+| both      20,684 voxels
+| only A    55
+| only B    0
+| layer     vase, 0 in both, 119 only A, 0 only B
+| layers    8 layers agree
+| clusters  10
+| cluster   10 voxels only A, 0 only B, in (-12.2666713, -0.755555652, -4.76667132) to (-8.17778088, 1.28888957, -0.677780878)
+| cluster   8 voxels only A, 0 only B, in (8.17778088, -0.755555652, 1.36666434) to (12.2666713, 1.28888957, 5.45555478)
+| cluster   6 voxels only A, 0 only B, in (-8.17778088, -0.755555652, 1.36666434) to (-6.13333566, 1.28888957, 5.45555478)
+| cluster   6 voxels only A, 0 only B, in (10.2222261, -0.755555652, -4.76667132) to (12.2666713, 1.28888957, -0.677780878)
+| cluster   5 voxels only A, 0 only B, in (6.13333566, -0.755555652, -4.76667132) to (8.17778088, 1.28888957, -2.7222261)
+| cluster   5 voxels only A, 0 only B, in (4.08889044, -0.755555652, 1.36666434) to (6.13333566, 1.28888957, 5.45555478)
+| cluster   4 voxels only A, 0 only B, in (-12.2666713, -0.755555652, 1.36666434) to (-10.2222261, 1.28888957, 3.41110956)
+| cluster   4 voxels only A, 0 only B, in (-6.13333566, -0.755555652, -4.76667132) to (-4.08889044, 1.28888957, -2.7222261)
+| cluster   4 voxels only A, 0 only B, in (-2.04444522, -0.755555652, 1.36666434) to (0, 1.28888957, 5.45555478)
+| cluster   3 voxels only A, 0 only B, in (0, -0.755555652, -4.76667132) to (2.04444522, 1.28888957, -2.7222261)
+| different
 ? 1
 $ svdag-verify diff a.svdag b.svdag --json | tr '{' '\n' | grep -c both
+| 10
 $ svdag-verify mesh b.svdag a.obj
+| grid       64^3 box, voxel size 0.5111113048735119, corner (-16.35556175595238, -0.7555556524367559, -8.855561755952381), rule conservative, matches the scene's bounds
+| defect     the file has no layer "vase"
+| judge      integer: exact clipping
+| triangles  256,700
+| bricks     688 (all), 19 wrong
+| voxels     20,684 in the file, 20,739 by the judge
+| missing    55
+| extra      0
+|   missing  voxel (9, 2, 10) at (-11.5000044, 0.52222261, -3.48889305)
+|   missing  voxel (9, 2, 11) at (-11.5000044, 0.52222261, -2.97778175)
+|   missing  voxel (10, 2, 9) at (-10.9888931, 0.52222261, -4.00000436)
+|   missing  voxel (11, 2, 9) at (-10.4777817, 0.52222261, -4.00000436)
+|   missing  voxel (10, 2, 10) at (-10.9888931, 0.52222261, -3.48889305)
+|   missing  voxel (11, 2, 11) at (-10.4777817, 0.52222261, -2.97778175)
+|   missing  voxel (9, 2, 12) at (-11.5000044, 0.52222261, -2.46667045)
+|   missing  voxel (10, 2, 12) at (-10.9888931, 0.52222261, -2.46667045)
+| layers     8 layers agree
+| not ok: file and scene differ
 ? 1
 
 ## verify_diff_many_layers
