@@ -50,7 +50,7 @@ uniform usampler2D sets;       // [set]: its first layer that is shown, or HIDDE
 uniform bool someHidden;
 layout(location = 0) out uvec4 hit;
 
-const uint BRICK = 0x80000000u, ENTRY = 0x40000000u, SET = 0x80000000u, HIDDEN = 0xffffffffu;
+const uint BRICK = 0x80000000u, ENTRY = 0x40000000u, SET = 0x80000000u, HIDDEN = 0xffffffffu, NOTHING = 0xffffffffu;
 const int MAX_STEPS = 4095;
 
 uint word(uint at) {
@@ -60,6 +60,16 @@ uint popcount8(uint v) {
   v -= v >> 1u & 0x55u;
   v = (v & 0x33u) + (v >> 2u & 0x33u);
   return v + (v >> 4u) & 15u;
+}
+uint popcount32(uint v) {
+  v -= v >> 1u & 0x55555555u;
+  v = (v & 0x33333333u) + (v >> 2u & 0x33333333u);
+  return ((v + (v >> 4u) & 0x0f0f0f0fu) * 0x01010101u) >> 24u;
+}
+// The mask of the bytes that are not 0.
+uint bytes_set(uint v) {
+  return uint((v & 0xffu) != 0u) | uint((v & 0xff00u) != 0u) << 1u | uint((v & 0xff0000u) != 0u) << 2u |
+         uint(v >> 24u != 0u) << 3u;
 }
 // Of v < 2^24, not 0.
 int highest_bit(int v) { return (floatBitsToInt(float(v)) >> 23) - 127; }
@@ -83,6 +93,32 @@ void place(ivec3 corner, float t) {
   vec3 c = vec3(pieces[2]) * (begin * exp2(-36.));
   base = corner;
   start = vec3(eye - corner + ivec3(floor(a)) + ivec3(floor(b))) + (fraction + (a - floor(a)) + (b - floor(b)) + c);
+}
+// The number of colours in the cube of a node, at below levels below it.
+uint colours_in(uint node, int below) {
+  if (below == 0) return 1u;
+  if ((node & BRICK) == 0u) return word(node) >> 8u;
+  uint low = word(node - BRICK), high = word(node - BRICK + 1u);
+  return below == 2 ? popcount32(low) + popcount32(high) : popcount8(bytes_set(low) | bytes_set(high) << 4u);
+}
+// The colour of the cube around a cell that is set (tiles.js).
+uint colour_of(uint colours, ivec3 cell, uint flip) {
+  uint node = word(colours), at = word(colours + 1u);
+  int end = int(word(colours + 3u));
+  for (int k = int(word(colours + 2u)); k < end; ++k) {
+    uint c = octant(cell, levels - 1 - k) ^ flip;
+    if ((node & BRICK) != 0u) {
+      uint low = word(node - BRICK), high = word(node - BRICK + 1u);
+      if (end - k == 1) return word(at + popcount8((bytes_set(low) | bytes_set(high) << 4u) & (1u << c) - 1u));
+      uint bit = (c & 3u) << 3u | (octant(cell, levels - 2 - k) ^ flip), before = (1u << bit) - 1u;
+      return word(at + (c < 4u ? popcount32(low & before) : popcount32(low) + popcount32(high & before)));
+    }
+    uint child = node + 1u;
+    for (uint left = word(node) & (1u << c) - 1u; left != 0u; left &= left - 1u)
+      at += colours_in(word(child++), end - k - 1);
+    node = word(child);
+  }
+  return word(at);
 }
 vec3 times(ivec3 plane) { return (vec3(plane - base) - start) * inverse_slope; }
 
@@ -124,7 +160,7 @@ void main() {
   uint path[21];
   path[0] = top;
   int level = 0, entry_level = 0;
-  uint layers = SET;
+  uint layers = SET, colours = NOTHING;
   for (int steps = 0; steps < MAX_STEPS; ++steps) {
     int shift;  // of the cube to leave
     uint node = path[level];
@@ -134,6 +170,7 @@ void main() {
         uint at = node - ENTRY;
         node = word(at);
         layers = word(at + 1u);
+        colours = word(at + 2u);
         path[level] = node;
         entry_level = level;
         ivec3 corner = cell & -1 << (levels - level);
@@ -162,7 +199,9 @@ void main() {
         for (int a = 0; a < 3; ++a) {
           if ((flip & 4u >> uint(a)) != 0u) near[a] = size - (1 << shift) - near[a];
         }
-        hit = uvec4(near.x, near.y, near.z, uint(levels - shift) | axis << 5u | 128u);
+        hit = uvec4(near.x, near.y, near.z, uint(levels - shift) | axis << 5u);
+        uint colour = colours == NOTHING ? NOTHING : colour_of(colours, cell, flip);
+        if (colour != NOTHING) hit.w |= 128u | colour << 8u;
         hit.x |= uint(steps) << 20u;
         hit.y |= (set & 4095u) << 20u;
         hit.z |= set >> 12u << 20u;
@@ -252,6 +291,7 @@ void main() {
     uint c = texelFetch(colours, ivec2(layer & 1023u, layer >> 10u), 0).r;
     base = linear(vec3(c & 255u, c >> 8u & 255u, c >> 16u & 255u) / 255.);
   }
+  if ((hit.w & 128u) != 0u && mode == 5) base = linear(vec3(hit.w >> 8u & 255u, hit.w >> 16u & 255u, hit.w >> 24u) / 255.);
   float shade = .28 + .72 * max(dot(normal, light), 0.) + .12 * normal[axis];
   vec3 lit = base * max(shade, .12);
   if (mode == 2) lit = linear(.5 + .5 * normal);
@@ -407,7 +447,8 @@ export class Tracer {
 
   // The hits of a part of the last picture, from the lower left, 4 words each; w is 0 without one:
   //   x, y, z   low 20 bits: the cell's corner; high 12 bits: steps; low and high bits of the set
-  //   w         low 5 bits: the cell's level; bits 5, 6: the axis of the face that the ray entered
+  //   w         low 5 bits: the cell's level; bits 5, 6: the axis of the face that the ray entered;
+  //             bit 7: it has a colour; bits 8 to 31: red, green, blue
   read(x = 0, y = 0, width = this.width, height = this.height) {
     const gl = this.gl, words = new Uint32Array(4 * width * height);
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.target);
