@@ -88,6 +88,17 @@ def traced(file, camera):
     return numpy.fromfile(dump, numpy.uint32).reshape(HEIGHT, WIDTH, 14)[:, :, :6]
 
 
+def light(code):
+    """Linear light of sRGB codes, 0 to 255."""
+    v = numpy.asarray(code) / 255
+    return numpy.where(v <= 0.04045, v / 12.92, ((v + 0.055) / 1.055) ** 2.4)
+
+
+def code(light):
+    v = numpy.clip(light, 0, 1)
+    return 255 * numpy.where(v <= 0.0031308, 12.92 * v, 1.055 * v ** (1 / 2.4) - 0.055)
+
+
 def differing(shown, hits):
     """The share of pixels that do not show the cube that a ray hits."""
     same = (hits[:, :, 0] == shown[:, :, 0]) & ((shown[:, :, 0] == 0) | (hits == shown).all(axis=2))
@@ -153,14 +164,40 @@ class Page(Browser):
     def settle(self):
         self.run("viewer.whenSettled()")
 
-    def hits(self):
-        """What the picture shows, as traced()."""
-        text = self.run("""(() => {
-            const bytes = new Uint8Array(viewer.tracer.read().buffer), parts = [];
+    def bytes_of(self, array):
+        """The bytes of a typed array, which an expression of async code gives."""
+        return base64.b64decode(self.run(f"""(async () => {{
+            const bytes = new Uint8Array(({array}).buffer), parts = [];
             for (let i = 0; i < bytes.length; i += 32768) parts.push(String.fromCharCode(...bytes.subarray(i, i + 32768)));
             return btoa(parts.join(''));
-        })()""")
-        words = numpy.frombuffer(base64.b64decode(text), numpy.uint32).reshape(HEIGHT, WIDTH, 4)[::-1]
+        }})()"""))
+
+    def words(self):
+        return numpy.frombuffer(self.bytes_of("viewer.tracer.read()"), numpy.uint32).reshape(HEIGHT, WIDTH, 4)[::-1]
+
+    def colours(self):
+        """What the picture shows: whether a pixel has a colour, and which."""
+        words = self.words()[:, :, 3]
+        return (words >> 7 & 1) == 1, numpy.stack([words >> bit & 255 for bit in (8, 16, 24)], axis=2)
+
+    def rendered(self, file, camera, mode):
+        """The picture of svdag-verify render, as sRGB codes."""
+        picture = FOLDER / "picture.png"
+        program("svdag-verify", "render", file, "-o", picture, "--size", f"{WIDTH}x{HEIGHT}", "--supersample", "1", "--mode", mode,
+                "--camera=" + ",".join(map(repr, camera)))
+        text = base64.b64encode(picture.read_bytes()).decode()
+        pixels = self.bytes_of(f"""await (async () => {{
+            const bytes = Uint8Array.from(atob('{text}'), (c) => c.charCodeAt(0));
+            const image = await createImageBitmap(new Blob([bytes]), {{colorSpaceConversion: 'none'}});
+            const canvas = new OffscreenCanvas(image.width, image.height), to = canvas.getContext('2d');
+            to.drawImage(image, 0, 0);
+            return to.getImageData(0, 0, image.width, image.height).data;
+        }})()""")
+        return numpy.frombuffer(pixels, numpy.uint8).reshape(HEIGHT, WIDTH, 4)[:, :, :3].astype(float)
+
+    def hits(self):
+        """What the picture shows, as traced()."""
+        words = self.words()
         found = words[:, :, 3] != 0
         hits = numpy.zeros((HEIGHT, WIDTH, 6), numpy.uint32)
         hits[:, :, 0] = found
@@ -240,6 +277,35 @@ class Pictures(unittest.TestCase):
                 hits = traced(alone, camera)
                 self.assertGreater(hits[:, :, 0].mean(), 0.001)
                 self.assertLess(differing(page.hits(), hits), 0.001)
+
+    def test_colours_are_those_of_the_renderer(self):
+        """A picture in one colour gives the light; in it, the page's colours are the coloured picture."""
+        clay, error = numpy.array([0.50, 0.46, 0.40]), 9
+        files = [baked("damaged_helmet.glb", "scan", "-r", "1K", "--colours", "--colour-level", "10"),
+                 baked("stk_black_forest_textured.glb", "city", "-r", "2K", "--colours", "--layers", "material")]
+        for file in files:
+            with Server(file) as server, Page(server.url, detail=0) as page:
+                for camera in cameras(file):
+                    page.look(camera)
+                    page.settle()
+                    first = page.run("performance.getEntriesByType('resource').map((e) => e.name).find((n) => n.includes('/colours/'))")
+                    self.assertIn("/colours/1/", first)  # coarse colours first
+                    hits, shown = traced(file, camera), page.hits()
+                    has_colour, colours = page.colours()
+                    same = (hits == shown).all(axis=2) & (shown[:, :, 0] == 1)
+                    self.assertGreater(same.sum(), 1000)
+                    albedo = numpy.where(has_colour[:, :, None], light(colours), clay)
+                    expected = code(light(page.rendered(file, camera, "primary")) * albedo / clay)
+                    off = numpy.linalg.norm(expected - page.rendered(file, camera, "colour"), axis=2)[same]
+                    print(f"colours of {file.name}: {100 * (off > error).mean():.4f} % of {same.sum():,} pixels differ by more than "
+                          f"{error}; {off.mean():.2f} on average; {page.run('viewer.status.textContent')}", file=sys.stderr)
+                    self.assertLess((off > error).mean(), 0.001)
+                    self.assertGreater(colours[same].std(), 5)
+                self.assertEqual(page.errors(), [])
+                y, x = [int(v[len(v) // 2]) for v in numpy.nonzero(same & has_colour)]
+                picked = page.run(f"viewer.pick({x + 0.5}, {y + 0.5})")
+                self.assertEqual(picked["colour"], [int(v) for v in colours[y, x]])
+                self.assertIn("colour #%02x%02x%02x" % tuple(picked["colour"]), page.run("viewer.picture.textContent"))
 
     def test_sections_show_only_their_box(self):
         file = baked("stanford_dragon.ply", "scan", "-r", "2K", "--layout", "compact")
@@ -550,14 +616,15 @@ class Manners(unittest.TestCase):
 
     def test_the_report_shows_it_without_a_network(self):
         report = FOLDER / "report.html"
-        program("svdag-verify", "report", self.file, "-o", report, "--size", "160x90")
+        file = baked("damaged_helmet.glb", "scan", "-r", "1K", "--colours", "--colour-level", "10")
+        program("svdag-verify", "report", file, "-o", report, "--size", "160x90")
         self.assertLess(report.stat().st_size, 4 << 20)
         with Browser(WIDTH, HEIGHT) as page:
             page.send("Network.emulateNetworkConditions", offline=True, latency=0, downloadThroughput=-1, uploadThroughput=-1)
             page.open(report.as_uri())
             page.wait("window.viewer")
             page.run("viewer.whenSettled()")
-            self.assertGreater(page.run("viewer.tracer.read().filter((v, i) => i % 4 === 3 && v !== 0).length"), 1000)
+            self.assertGreater(page.run("viewer.tracer.read().filter((v, i) => i % 4 === 3 && v & 128).length"), 1000)
             self.assertEqual(page.errors(), [])
         with Browser(WIDTH, HEIGHT, ["--disable-3d-apis"]) as page:
             page.open(report.as_uri())
