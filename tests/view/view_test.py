@@ -57,6 +57,10 @@ def sponza16k():
     return baked("crytek_sponza.glb", "atrium", "-r", "16K")
 
 
+def coloured():
+    return baked("stk_black_forest_textured.glb", "city", "-r", "2K", "--colours", "--layers", "material")
+
+
 def info(file):
     return json.loads(program("svdag", "info", file, "--json"))
 
@@ -282,7 +286,7 @@ class Pictures(unittest.TestCase):
         """A picture in one colour gives the light; in it, the page's colours are the coloured picture."""
         clay, error = numpy.array([0.50, 0.46, 0.40]), 9
         files = [baked("damaged_helmet.glb", "scan", "-r", "1K", "--colours", "--colour-level", "10"),
-                 baked("stk_black_forest_textured.glb", "city", "-r", "2K", "--colours", "--layers", "material")]
+                 coloured()]
         for file in files:
             with Server(file) as server, Page(server.url, detail=0) as page:
                 for camera in cameras(file):
@@ -383,7 +387,7 @@ class Loading(unittest.TestCase):
         self.assertLess(sent, size / 10)
 
     def test_memory_stays_within_its_budget(self):
-        file, budget = sponza16k(), 16
+        file, budget = coloured(), 16
         path = [c for seed in range(4) for c in cameras(file, 2, seed)]
         with Server(file) as server, Page(server.url, memory=budget) as page:
             for camera in path:
@@ -395,6 +399,7 @@ class Loading(unittest.TestCase):
                 # No holes: what a ray hits is covered by a cube of some level.
                 hits, shown = traced(file, camera), page.hits()
                 self.assertEqual(int((hits[:, :, 0] > shown[:, :, 0]).sum()), 0)
+            self.assertGreater(page.run("[...viewer.tiles.byId.values()].filter((t) => t.tile && t.rows > 0).length"), 0)
             self.assertEqual(page.errors(), [])
 
     def test_a_full_memory_is_reported_and_not_a_loop(self):
@@ -421,7 +426,7 @@ class Serving(unittest.TestCase):
                 self.assertEqual(server.get(token, host)[0], 403, host)
             self.assertEqual(server.get(token, "localhost:1234")[0], 200)  # through a tunnel
             for path in ["tiles/", "tiles/0", "tiles/2", "tiles/-1", "tiles/99999999999999999999", "tiles/1x", "../../etc/passwd",
-                         "tiles/../scene.json", "%2e%2e/", "nothing"]:
+                         "tiles/../scene.json", "%2e%2e/", "nothing", "colours/", "colours/1", "colours/1/9"]:
                 self.assertEqual(server.get(token + path)[0], 404, path)
             for method in ["POST", "PUT", "DELETE", "OPTIONS"]:
                 self.assertIn(server.get(token, method=method)[0], (405, 413), method)

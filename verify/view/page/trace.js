@@ -80,6 +80,9 @@ uint octant(ivec3 cell, int shift) {
   return uint(bit.x << 2 | bit.y << 1 | bit.z);
 }
 
+ivec3 cell;    // the current one, mirrored
+uint flip;     // the axes that are
+uint colours;  // of the tile (tiles.js), or NOTHING
 // The ray, mirrored. At the time begin + t it is at base + start + t * slope.
 ivec3 eye, pieces[3];
 vec3 fraction, slope, inverse_slope;
@@ -94,7 +97,9 @@ void place(ivec3 corner, float t) {
   base = corner;
   start = vec3(eye - corner + ivec3(floor(a)) + ivec3(floor(b))) + (fraction + (a - floor(a)) + (b - floor(b)) + c);
 }
-// The number of colours in the cube of a node, at below levels below it.
+vec3 times(ivec3 plane) { return (vec3(plane - base) - start) * inverse_slope; }
+
+// The number of cubes with colours, below levels below a node.
 uint colours_in(uint node, int below) {
   if (below == 0) return 1u;
   if ((node & BRICK) == 0u) return word(node) >> 8u;
@@ -102,7 +107,7 @@ uint colours_in(uint node, int below) {
   return below == 2 ? popcount32(low) + popcount32(high) : popcount8(bytes_set(low) | bytes_set(high) << 4u);
 }
 // The colour of the cube around a cell that is set (tiles.js).
-uint colour_of(uint colours, ivec3 cell, uint flip) {
+uint colour_of() {
   uint node = word(colours), at = word(colours + 1u);
   int end = int(word(colours + 3u));
   for (int k = int(word(colours + 2u)); k < end; ++k) {
@@ -120,14 +125,12 @@ uint colour_of(uint colours, ivec3 cell, uint flip) {
   }
   return word(at);
 }
-vec3 times(ivec3 plane) { return (vec3(plane - base) - start) * inverse_slope; }
-
-void main() {
+void traverse() {
   hit = uvec4(0);
   int size = 1 << levels;
   ivec3 coarse, fine;
   direction(pixel(), coarse, fine);
-  uint flip = 0u;
+  flip = 0u;
   ivec3 cell_min = clipMin, cell_max = clipMax;
   for (int a = 0; a < 3; ++a) {
     eye[a] = eyeCell[a];
@@ -154,13 +157,14 @@ void main() {
   if (enter >= smallest(times(cell_max))) return;
   place(cell_min, enter);
   enter = max(largest(times(cell_min)), -begin);
-  ivec3 cell = clamp(base + ivec3(floor(start + slope * enter)), cell_min, cell_max - 1);
+  cell = clamp(base + ivec3(floor(start + slope * enter)), cell_min, cell_max - 1);
   float now = enter;
 
   uint path[21];
   path[0] = top;
   int level = 0, entry_level = 0;
-  uint layers = SET, colours = NOTHING;
+  uint layers = SET;
+  colours = NOTHING;
   for (int steps = 0; steps < MAX_STEPS; ++steps) {
     int shift;  // of the cube to leave
     uint node = path[level];
@@ -200,8 +204,6 @@ void main() {
           if ((flip & 4u >> uint(a)) != 0u) near[a] = size - (1 << shift) - near[a];
         }
         hit = uvec4(near.x, near.y, near.z, uint(levels - shift) | axis << 5u);
-        uint colour = colours == NOTHING ? NOTHING : colour_of(colours, cell, flip);
-        if (colour != NOTHING) hit.w |= 128u | colour << 8u;
         hit.x |= uint(steps) << 20u;
         hit.y |= (set & 4095u) << 20u;
         hit.z |= set >> 12u << 20u;
@@ -222,6 +224,14 @@ void main() {
     cell = next;
     level = min(level, levels - 1 - highest_bit(changed.x | changed.y | changed.z));
   }
+}
+
+// The look-up is not in the loop, where SwiftShader would run it in every step.
+void main() {
+  traverse();
+  if (hit.w == 0u || colours == NOTHING) return;
+  uint colour = colour_of();
+  if (colour != NOTHING) hit.w |= 128u | colour << 8u;
 }`;
 
 const SHADE = RAYS + `
