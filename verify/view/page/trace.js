@@ -52,6 +52,7 @@ layout(location = 0) out uvec4 hit;
 
 const uint BRICK = 0x80000000u, ENTRY = 0x40000000u, SET = 0x80000000u, HIDDEN = 0xffffffffu, NOTHING = 0xffffffffu;
 const int MAX_STEPS = 4095;
+const bool HAS_COLOURS = OF_SCENE;  // else the compiler drops what is about them
 
 uint word(uint at) {
   return texelFetch(pool, ivec3(at & 1023u, at >> 10u & 2047u, at >> 21u & 255u), 0).r;
@@ -174,7 +175,7 @@ void traverse() {
         uint at = node - ENTRY;
         node = word(at);
         layers = word(at + 1u);
-        colours = word(at + 2u);
+        if (HAS_COLOURS) colours = word(at + 2u);
         path[level] = node;
         entry_level = level;
         ivec3 corner = cell & -1 << (levels - level);
@@ -229,7 +230,7 @@ void traverse() {
 // The look-up is not in the loop, where SwiftShader would run it in every step.
 void main() {
   traverse();
-  if (hit.w == 0u || colours == NOTHING) return;
+  if (!HAS_COLOURS || hit.w == 0u || colours == NOTHING) return;
   uint colour = colour_of();
   if (colour != NOTHING) hit.w |= 128u | colour << 8u;
 }`;
@@ -327,7 +328,7 @@ const LIMB = 2 ** 18;
 export class Tracer {
   constructor(gl, scene) {
     Object.assign(this, {gl, scene});
-    this.trace = this.program(TRACE);
+    this.trace = this.program(TRACE.replace('OF_SCENE', Boolean(scene.colours)));
     this.shade = this.program(SHADE);
     this.hits = gl.createTexture();
     this.target = gl.createFramebuffer();
