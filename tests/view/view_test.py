@@ -57,6 +57,10 @@ def sponza16k():
     return baked("crytek_sponza.glb", "atrium", "-r", "16K")
 
 
+def coloured():
+    return baked("stk_black_forest_textured.glb", "city", "-r", "2K", "--colours", "--layers", "material")
+
+
 def info(file):
     return json.loads(program("svdag", "info", file, "--json"))
 
@@ -86,6 +90,17 @@ def traced(file, camera):
     program("svdag-trace", file, "--size", f"{WIDTH}x{HEIGHT}", "--camera=" + ",".join(map(repr, camera)), "--dump", dump,
             "--samples", "1")
     return numpy.fromfile(dump, numpy.uint32).reshape(HEIGHT, WIDTH, 14)[:, :, :6]
+
+
+def light(code):
+    """Linear light of sRGB codes, 0 to 255."""
+    v = numpy.asarray(code) / 255
+    return numpy.where(v <= 0.04045, v / 12.92, ((v + 0.055) / 1.055) ** 2.4)
+
+
+def code(light):
+    v = numpy.clip(light, 0, 1)
+    return 255 * numpy.where(v <= 0.0031308, 12.92 * v, 1.055 * v ** (1 / 2.4) - 0.055)
 
 
 def differing(shown, hits):
@@ -153,14 +168,40 @@ class Page(Browser):
     def settle(self):
         self.run("viewer.whenSettled()")
 
-    def hits(self):
-        """What the picture shows, as traced()."""
-        text = self.run("""(() => {
-            const bytes = new Uint8Array(viewer.tracer.read().buffer), parts = [];
+    def bytes_of(self, array):
+        """The bytes of a typed array, which an expression of async code gives."""
+        return base64.b64decode(self.run(f"""(async () => {{
+            const bytes = new Uint8Array(({array}).buffer), parts = [];
             for (let i = 0; i < bytes.length; i += 32768) parts.push(String.fromCharCode(...bytes.subarray(i, i + 32768)));
             return btoa(parts.join(''));
-        })()""")
-        words = numpy.frombuffer(base64.b64decode(text), numpy.uint32).reshape(HEIGHT, WIDTH, 4)[::-1]
+        }})()"""))
+
+    def words(self):
+        return numpy.frombuffer(self.bytes_of("viewer.tracer.read()"), numpy.uint32).reshape(HEIGHT, WIDTH, 4)[::-1]
+
+    def colours(self):
+        """What the picture shows: whether a pixel has a colour, and which."""
+        words = self.words()[:, :, 3]
+        return (words >> 7 & 1) == 1, numpy.stack([words >> bit & 255 for bit in (8, 16, 24)], axis=2)
+
+    def rendered(self, file, camera, mode):
+        """The picture of svdag-verify render, as sRGB codes."""
+        picture = FOLDER / "picture.png"
+        program("svdag-verify", "render", file, "-o", picture, "--size", f"{WIDTH}x{HEIGHT}", "--supersample", "1", "--mode", mode,
+                "--camera=" + ",".join(map(repr, camera)))
+        text = base64.b64encode(picture.read_bytes()).decode()
+        pixels = self.bytes_of(f"""await (async () => {{
+            const bytes = Uint8Array.from(atob('{text}'), (c) => c.charCodeAt(0));
+            const image = await createImageBitmap(new Blob([bytes]), {{colorSpaceConversion: 'none'}});
+            const canvas = new OffscreenCanvas(image.width, image.height), to = canvas.getContext('2d');
+            to.drawImage(image, 0, 0);
+            return to.getImageData(0, 0, image.width, image.height).data;
+        }})()""")
+        return numpy.frombuffer(pixels, numpy.uint8).reshape(HEIGHT, WIDTH, 4)[:, :, :3].astype(float)
+
+    def hits(self):
+        """What the picture shows, as traced()."""
+        words = self.words()
         found = words[:, :, 3] != 0
         hits = numpy.zeros((HEIGHT, WIDTH, 6), numpy.uint32)
         hits[:, :, 0] = found
@@ -186,14 +227,14 @@ class Pictures(unittest.TestCase):
                  (baked("trimesh_fandisk.obj", "hairball", "-r", "512", *(["--rule", "solid"] if SCENES else [])), None)]
         shares, hit = [], 0
         for file, given in files:
-            with Server(file, "--keep") as server:
+            with Server(file) as server, Page(server.url, detail=0, memory=1024) as page:
                 for camera in given or cameras(file):
-                    with Page(server.url, camera, detail=0, memory=1024) as page:
-                        page.settle()
-                        hits = traced(file, camera)
-                        shares.append(differing(page.hits(), hits))
-                        hit += hits[:, :, 0].mean() / 10
-                        self.assertEqual(page.errors(), [])
+                    page.look(camera)
+                    page.settle()
+                    hits = traced(file, camera)
+                    shares.append(differing(page.hits(), hits))
+                    hit += hits[:, :, 0].mean() / 10
+                self.assertEqual(page.errors(), [])
         print(f"pixels that differ from svdag-trace: {100 * max(shares):.4f} % at most, {100 * sum(shares) / len(shares):.4f} % "
               f"on average; {100 * hit:.0f} % hit", file=sys.stderr)
         self.assertEqual(len(shares), 10)
@@ -240,6 +281,34 @@ class Pictures(unittest.TestCase):
                 hits = traced(alone, camera)
                 self.assertGreater(hits[:, :, 0].mean(), 0.001)
                 self.assertLess(differing(page.hits(), hits), 0.001)
+
+    def test_colours_are_those_of_the_renderer(self):
+        """A picture in one colour gives the light; in it, the page's colours are the coloured picture."""
+        clay, error = numpy.array([0.50, 0.46, 0.40]), 9
+        files = [(baked("damaged_helmet.glb", "scan", "-r", "1K", "--colours", "--colour-level", "10"), 0), (coloured(), 1)]
+        for file, number in files:
+            with Server(file) as server, Page(server.url, detail=0) as page:
+                camera = cameras(file)[number]
+                page.look(camera)
+                page.settle()
+                first = page.run("performance.getEntriesByType('resource').map((e) => e.name).find((n) => n.includes('/colours/'))")
+                self.assertIn("/colours/1/", first)  # coarse colours first
+                hits, shown = traced(file, camera), page.hits()
+                has_colour, colours = page.colours()
+                same = (hits == shown).all(axis=2) & (shown[:, :, 0] == 1)
+                self.assertGreater(same.sum(), 1000)
+                albedo = numpy.where(has_colour[:, :, None], light(colours), clay)
+                expected = code(light(page.rendered(file, camera, "primary")) * albedo / clay)
+                off = numpy.linalg.norm(expected - page.rendered(file, camera, "colour"), axis=2)[same]
+                print(f"colours of {file.name}: {100 * (off > error).mean():.4f} % of {same.sum():,} pixels differ by more than "
+                      f"{error}; {off.mean():.2f} on average; {page.run('viewer.status.textContent')}", file=sys.stderr)
+                self.assertLess((off > error).mean(), 0.001)
+                self.assertGreater(colours[same].std(), 5)
+                self.assertEqual(page.errors(), [])
+                y, x = [int(v[len(v) // 2]) for v in numpy.nonzero(same & has_colour)]
+                picked = page.run(f"viewer.pick({x + 0.5}, {y + 0.5})")
+                self.assertEqual(picked["colour"], [int(v) for v in colours[y, x]])
+                self.assertIn("colour #%02x%02x%02x" % tuple(picked["colour"]), page.run("viewer.picture.textContent"))
 
     def test_sections_show_only_their_box(self):
         file = baked("stanford_dragon.ply", "scan", "-r", "2K", "--layout", "compact")
@@ -306,18 +375,18 @@ class Loading(unittest.TestCase):
             page.settle()
             begin = page.sent_bytes()
             page.run("""(async () => {
-                for (let i = 0; i < 36; ++i) { viewer.camera.turn(2 * Math.PI / 36, 0); await viewer.whenSettled(); }
+                for (let i = 0; i < 12; ++i) { viewer.camera.turn(2 * Math.PI / 12, 0); await viewer.whenSettled(); }
             })()""", 600)
             page.run("0")
             sent, tiles = page.sent_bytes() - begin, page.run("viewer.tiles.count")
             seen = page.run("[...viewer.tiles.byId.values()].filter((t) => t.rows > 0 && t.seen === 0).length")
             milliseconds = page.run("viewer.status.textContent")
-        print(f"orbit of 36 pictures: {sent:,} bytes for {tiles} tiles, of a file of {size:,}; {milliseconds}", file=sys.stderr)
+        print(f"orbit of 12 pictures: {sent:,} bytes for {tiles} tiles, of a file of {size:,}; {milliseconds}", file=sys.stderr)
         self.assertEqual(seen, 0)  # every tile was in a picture
         self.assertLess(sent, size / 10)
 
     def test_memory_stays_within_its_budget(self):
-        file, budget = sponza16k(), 16
+        file, budget = coloured(), 16
         path = [c for seed in range(4) for c in cameras(file, 2, seed)]
         with Server(file) as server, Page(server.url, memory=budget) as page:
             for camera in path:
@@ -329,6 +398,7 @@ class Loading(unittest.TestCase):
                 # No holes: what a ray hits is covered by a cube of some level.
                 hits, shown = traced(file, camera), page.hits()
                 self.assertEqual(int((hits[:, :, 0] > shown[:, :, 0]).sum()), 0)
+            self.assertGreater(page.run("[...viewer.tiles.byId.values()].filter((t) => t.tile && t.rows > 0).length"), 0)
             self.assertEqual(page.errors(), [])
 
     def test_a_full_memory_is_reported_and_not_a_loop(self):
@@ -355,7 +425,7 @@ class Serving(unittest.TestCase):
                 self.assertEqual(server.get(token, host)[0], 403, host)
             self.assertEqual(server.get(token, "localhost:1234")[0], 200)  # through a tunnel
             for path in ["tiles/", "tiles/0", "tiles/2", "tiles/-1", "tiles/99999999999999999999", "tiles/1x", "../../etc/passwd",
-                         "tiles/../scene.json", "%2e%2e/", "nothing"]:
+                         "tiles/../scene.json", "%2e%2e/", "nothing", "colours/", "colours/1", "colours/1/9"]:
                 self.assertEqual(server.get(token + path)[0], 404, path)
             for method in ["POST", "PUT", "DELETE", "OPTIONS"]:
                 self.assertIn(server.get(token, method=method)[0], (405, 413), method)
@@ -550,14 +620,15 @@ class Manners(unittest.TestCase):
 
     def test_the_report_shows_it_without_a_network(self):
         report = FOLDER / "report.html"
-        program("svdag-verify", "report", self.file, "-o", report, "--size", "160x90")
+        file = baked("damaged_helmet.glb", "scan", "-r", "1K", "--colours", "--colour-level", "10")
+        program("svdag-verify", "report", file, "-o", report, "--size", "160x90")
         self.assertLess(report.stat().st_size, 4 << 20)
         with Browser(WIDTH, HEIGHT) as page:
             page.send("Network.emulateNetworkConditions", offline=True, latency=0, downloadThroughput=-1, uploadThroughput=-1)
             page.open(report.as_uri())
             page.wait("window.viewer")
             page.run("viewer.whenSettled()")
-            self.assertGreater(page.run("viewer.tracer.read().filter((v, i) => i % 4 === 3 && v !== 0).length"), 1000)
+            self.assertGreater(page.run("viewer.tracer.read().filter((v, i) => i % 4 === 3 && v & 128).length"), 1000)
             self.assertEqual(page.errors(), [])
         with Browser(WIDTH, HEIGHT, ["--disable-3d-apis"]) as page:
             page.open(report.as_uri())

@@ -10,6 +10,7 @@
 #include "io/dag/open_dag.h"
 #include "io/units.h"
 #include "streaming/error.h"
+#include "streaming/memory/memory_budget.h"
 #include "streaming/printable.h"
 #include "streaming/process/interrupt.h"
 #include "verify/commands/commands.h"
@@ -93,7 +94,10 @@ int view(const ViewConfig& config) {
   server.up = config.up;
   server.keep = config.keep;
   std::optional<RedirectPage> page;  // until the end: a browser may take long to start
-  serve(file, cutter, server, [&](const std::string& url) {
+  MemoryBudget budget(memory_or_default(0));
+  std::optional<DagColours> colours;
+  if (file.has_colours()) colours.emplace(file, &budget);
+  serve(file, cutter, colours ? &*colours : nullptr, server, [&](const std::string& url) {
     std::printf("%s\n", url.c_str());
     std::fflush(stdout);
     if (config.open && has_desktop()) open_browser(page.emplace(url).path());

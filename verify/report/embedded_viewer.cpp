@@ -6,11 +6,15 @@
 #include <optional>
 #include <vector>
 
+#include "streaming/memory/memory_budget.h"
 #include "verify/report/report_text.h"
 #include "verify/view/folder.h"
+#include "verify/view/tile_file.h"
 
 namespace svdag {
 namespace {
+
+constexpr uint32_t kMaxColours = 65536;  // at most 256 KiB, before compression
 
 // The tiles of a level as a JSON object of texts in base 64; nothing if it has more than
 // `max_bytes`.
@@ -30,6 +34,19 @@ std::optional<std::string> tiles_json(const TileCutter& cutter, uint64_t max_byt
   return text.size() <= max_bytes ? std::optional(text) : std::nullopt;
 }
 
+// The colours of the root's tile, of the level that the page chooses.
+std::string colours_text(const DagColours& colours, const TileCutter& cutter) {
+  const uint32_t finest = colours.view().level();
+  uint32_t level = std::min(finest, cutter.tile_levels());
+  for (level -= (finest - level) % 2; level >= 1 && level <= finest; level -= 2) {
+    const auto found = colours_of_tile(colours, 1, level, kMaxColours);
+    if (!found) continue;
+    const std::string packed = compressed(*found);
+    return base64(std::as_bytes(std::span(packed)));
+  }
+  return {};
+}
+
 // Runs in the page.
 constexpr const char* kStart = R"(
 const json = (id) => JSON.parse(document.getElementById(id).textContent), tiles = json('tiles'), parent = document.getElementById('svdag');
@@ -39,7 +56,7 @@ async function unpack(text) {
   return new Uint32Array(bytes, 0, bytes.byteLength >> 2);
 }
 parent.hidden = false;
-if (!start(parent, {scene: json('scene'), tile: (id) => unpack(tiles[id])})) parent.hidden = true;
+if (!start(parent, {scene: json('scene'), tile: (id) => unpack(tiles[id]), colours: () => unpack(json('colours'))})) parent.hidden = true;
 )";
 
 }  // namespace
@@ -67,12 +84,18 @@ EmbeddedViewer embed_viewer(const DagFile& file, int up, uint64_t max_bytes, Exe
     if (page.name == "view.css") viewer.style = page.text;
   }
   const TileCutter cutter(file, viewer.level);
+  MemoryBudget budget(memory_or_default(0));
+  std::optional<DagColours> colours;
+  if (file.has_colours()) colours.emplace(file, &budget);
   viewer.html =
       "<div class=\"viewer\" id=\"svdag\" hidden></div>\n"
       "<script type=\"application/json\" id=\"scene\">" +
-      scene_json(file, cutter, {up, 1, false}) +
-      "</script>\n<script type=\"application/json\" id=\"tiles\">" + tiles + "</script>\n<script>" +
-      script + "</script>\n";
+      scene_json(file, cutter, {up, 1, false, colours ? colours->view().level() : 0, kMaxColours}) +
+      "</script>\n<script type=\"application/json\" id=\"tiles\">" + tiles + "</script>\n";
+  if (colours)
+    viewer.html += "<script type=\"application/json\" id=\"colours\">\"" +
+                   colours_text(*colours, cutter) + "\"</script>\n";
+  viewer.html += "<script>" + script + "</script>\n";
   return viewer;
 }
 

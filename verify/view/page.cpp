@@ -34,7 +34,7 @@ std::string scene_json(const DagFile& file, const TileCutter& cutter, const Scen
     layers.push_back({{"name", shown_layer(layer.name)},
                       {"colour", {layer.colour.r, layer.colour.g, layer.colour.b}},
                       {"voxels", layer.voxels}});
-  const Json scene = {
+  Json scene = {
       {"name", base_name(path)},
       {"content_hash", to_hex(file.header().content_hash)},
       {"levels", dag.levels},
@@ -51,6 +51,10 @@ std::string scene_json(const DagFile& file, const TileCutter& cutter, const Scen
        {{bounds.min.x, bounds.min.y, bounds.min.z}, {bounds.max.x, bounds.max.y, bounds.max.z}}},
       {"layers", layers},
   };
+  if (options.colour_level > 0)
+    scene["colours"] = {{"level", options.colour_level},
+                        {"max", options.max_colours},
+                        {"root_only", !options.served}};
   const std::string text = scene.dump(-1, ' ', true, Json::error_handler_t::replace);
   std::string safe;
   for (const char c : text) safe += c == '<' ? std::string("\\u003c") : std::string(1, c);

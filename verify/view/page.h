@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "verify/view/tile.h"
+#include "verify/view/tile_colours.h"
 
 namespace svdag {
 
@@ -22,9 +23,11 @@ struct PageFile {
 std::span<const PageFile> page_files();
 
 struct SceneOfPage {
-  int up = 1;           // axis
-  uint64_t root = 1;    // id of the tile of the grid
-  bool served = false;  // the page keeps a request open while it is shown
+  int up = 1;                 // axis
+  uint64_t root = 1;          // id of the tile of the grid
+  bool served = false;        // the page keeps a request open while it is shown
+  uint32_t colour_level = 0;  // K, if tiles have colours (tile_colours.h)
+  uint32_t max_colours = kMaxTileColours;
 };
 
 // The scene as JSON, without "<", so that a page can hold it.

@@ -13,6 +13,7 @@
 #include "streaming/process/interrupt.h"
 #include "verify/view/connections.h"
 #include "verify/view/request_head.h"
+#include "verify/view/tile_colours.h"
 #include "verify/view/tile_file.h"
 
 namespace svdag {
@@ -118,10 +119,13 @@ class Workers {
 // and reads.
 class Site : httplib::Server {
  public:
-  Site(const DagFile& file, const TileCutter& cutter, const ServerConfig& config)
+  Site(const DagFile& file, const TileCutter& cutter, const DagColours* colours,
+       const ServerConfig& config)
       : cutter_(cutter),
+        colours_(colours),
         root_("/" + config.token + "/"),
-        scene_(scene_json(file, cutter, {config.up, 1, true})) {
+        scene_(
+            scene_json(file, cutter, {config.up, 1, true, colours ? colours->view().level() : 0})) {
     set_payload_max_length(0);
     set_keep_alive_max_count(1000000);
     set_keep_alive_timeout(Connections::kHeadTime.count());
@@ -190,7 +194,10 @@ class Site : httplib::Server {
 
   void answer(const Request& request, const std::string& name, Response* response) const {
     if (name == "scene.json") return send(request, scene_, "application/json", response);
-    if (name.starts_with("tiles/")) return send_tile(request, name.substr(6), response);
+    if (name.starts_with("tiles/"))
+      return send_words(request, tile_words(name.substr(6)), response);
+    if (name.starts_with("colours/"))
+      return send_words(request, colour_words(name.substr(8)), response);
     for (const PageFile& file : page_files()) {
       if (file.name == (name.empty() ? "index.html" : name))
         return send(request, std::string(file.text), std::string(file.type).c_str(), response);
@@ -198,16 +205,31 @@ class Site : httplib::Server {
     response->status = 404;
   }
 
-  void send_tile(const Request& request, const std::string& id, Response* response) const {
-    uint64_t path = 0;
-    const auto read = std::from_chars(id.data(), id.data() + id.size(), path);
-    const bool is_number = read.ec == std::errc() && read.ptr == id.data() + id.size();
-    const std::optional<DagTile> tile = is_number ? tile_of_path(cutter_, path) : std::nullopt;
-    if (!tile) {
+  using Words = std::optional<std::vector<uint32_t>>;
+
+  static std::optional<uint64_t> number_of(std::string_view text) {
+    uint64_t number = 0;
+    const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (read.ec != std::errc() || read.ptr != text.data() + text.size()) return {};
+    return number;
+  }
+  Words tile_words(std::string_view id) const {
+    const auto path = number_of(id);
+    const auto tile = path ? tile_of_path(cutter_, *path) : std::nullopt;
+    return tile ? Words(words_of(*tile)) : std::nullopt;
+  }
+  // "PATH/LEVEL".
+  Words colour_words(std::string_view name) const {
+    const size_t slash = std::min(name.find('/'), name.size() - 1);
+    const auto path = number_of(name.substr(0, slash)), level = number_of(name.substr(slash + 1));
+    if (!colours_ || !path || !level || *level > cutter_.levels()) return {};
+    return colours_of_tile(*colours_, *path, uint32_t(*level));
+  }
+  static void send_words(const Request& request, const Words& words, Response* response) {
+    if (words)
+      send(request, compressed(*words), "application/octet-stream", response);
+    else
       response->status = 404;
-      return;
-    }
-    send(request, encode_tile(*tile), "application/octet-stream", response);
   }
 
   // The tag is a hash of the text: what a browser has is sent again only if it differs.
@@ -222,17 +244,18 @@ class Site : httplib::Server {
   }
 
   const TileCutter& cutter_;
+  const DagColours* const colours_;
   const std::string root_, scene_;
 };
 
 }  // namespace
 
-void serve(const DagFile& file, const TileCutter& cutter, const ServerConfig& config,
-           const std::function<void(const std::string& url)>& ready) {
+void serve(const DagFile& file, const TileCutter& cutter, const DagColours* colours,
+           const ServerConfig& config, const std::function<void(const std::string& url)>& ready) {
   if (sodium_init() < 0) throw std::runtime_error("libsodium cannot start");
   ServerConfig known = config;
   if (known.token.empty()) known.token = random_token();
-  Site site(file, cutter, known);
+  Site site(file, cutter, colours, known);
   const std::string host = "127.0.0.1";
   const int port = site.listen_at(host, known.port);
   if (port < 0)

@@ -22,21 +22,6 @@ uint32_t checksum_of(std::span<const uint32_t> words) {
   return hash;
 }
 
-std::string compressed(const Words& words) {
-  z_stream state = {};
-  if (deflateInit2(&state, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kGzip, 8, Z_DEFAULT_STRATEGY) != Z_OK)
-    throw std::bad_alloc();
-  std::string out(deflateBound(&state, uLong(4 * words.size())), '\0');
-  state.next_in = reinterpret_cast<Bytef*>(const_cast<uint32_t*>(words.data()));  // not written to
-  state.avail_in = uInt(4 * words.size());
-  state.next_out = reinterpret_cast<Bytef*>(out.data());
-  state.avail_out = uInt(out.size());
-  deflate(&state, Z_FINISH);
-  out.resize(state.total_out);
-  deflateEnd(&state);
-  return out;
-}
-
 // Empty if the bytes are not one gzip member with whole words.
 Words decompressed(std::span<const std::byte> bytes) {
   Words words(std::min(kMaxWordsOfTile, bytes.size() * 258 + 64));
@@ -123,6 +108,21 @@ bool has_valid_layers(const DagTile& tile) {
 }
 
 }  // namespace
+
+std::string compressed(std::span<const uint32_t> words) {
+  z_stream state = {};
+  if (deflateInit2(&state, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kGzip, 8, Z_DEFAULT_STRATEGY) != Z_OK)
+    throw std::bad_alloc();
+  std::string out(deflateBound(&state, uLong(4 * words.size())), '\0');
+  state.next_in = reinterpret_cast<Bytef*>(const_cast<uint32_t*>(words.data()));  // not written to
+  state.avail_in = uInt(4 * words.size());
+  state.next_out = reinterpret_cast<Bytef*>(out.data());
+  state.avail_out = uInt(out.size());
+  deflate(&state, Z_FINISH);
+  out.resize(state.total_out);
+  deflateEnd(&state);
+  return out;
+}
 
 Words words_of(const DagTile& tile) {
   Words words = {kTileMagic,

@@ -23,6 +23,8 @@ namespace svdag {
 
 std::vector<uint32_t> words_of(const DagTile& tile);
 std::string encode_tile(const DagTile& tile);
+// The words as one gzip member: how colours are sent, too.
+std::string compressed(std::span<const uint32_t> words);
 
 // The tile of `words`; nothing if they are not exactly those of a valid tile: an offset that is not
 // a node's in the next section, a node or set that repeats or that nothing refers to, a value

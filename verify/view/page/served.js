@@ -19,7 +19,8 @@ async function main() {
   try {
     const scene = JSON.parse(new TextDecoder().decode(await get('scene.json')));
     document.title = scene.name;
-    const viewer = start(parent, {scene, tile: async (id) => unpack(await get(`tiles/${id}`))});
+    const load = async (path) => unpack(await get(path));
+    const viewer = start(parent, {scene, tile: (id) => load(`tiles/${id}`), colours: (id, level) => load(`colours/${id}/${level}`)});
     if (!scene.served) return;
     const alive = new EventSource('alive');  // tells the server that the page is open
     alive.onerror = () => viewer?.report('The server does not answer.');

@@ -3,9 +3,14 @@
 //
 // Memory is one texture of 32-bit words. A tile takes whole rows of it, and the offsets in its
 // nodes are replaced by addresses. A pointer is an address and two flags: BRICK for a brick, ENTRY
-// for two words, a pointer to a node and the layer value of its cube. The first rows hold the top
-// tree, nodes whose children are such entries: which tile is drawn where. An octant without a
-// tile of its own is drawn by its parent's, so there are no holes.
+// for three words, a pointer to a node, the layer value of its cube, and its colours. The first rows
+// hold the top tree, nodes whose children are such entries: which tile is drawn where. An octant
+// without a tile of its own is drawn by its parent's, so there are no holes.
+//
+// The colours of a tile (verify/view/tile_colours.h) take rows of their own, after its voxels are
+// there; a node has their number in its cube above its child mask. They are described by four
+// words: pointer to the tile's root, address of the first, level of the tile, level of the cubes.
+// Until they come, and where they are no finer, the tile shows those of the tile above.
 
 export const ROW = 1024;  // words
 const LAYER_ROWS = 2048;  // of the array texture: 8 MiB
@@ -14,7 +19,7 @@ const BRICK = 0x80000000, ENTRY = 0x40000000, SET = 0x80000000, NOTHING = 0xffff
 const RECENT = 8;  // passes of a moving view after which a tile that is not seen is drawn no more
 const MAX_REQUESTS = 6;
 
-const popcount8 = (mask) => {
+const popcount = (mask) => {
   let n = 0;
   for (; mask; mask &= mask - 1) ++n;
   return n;
@@ -117,7 +122,7 @@ function parse(words) {
   sections.push(layers);
   for (let d = 0; d + 1 < count; ++d) {
     for (let i = sections[d]; i < sections[d + 1];) {
-      const children = popcount8(words[i] & 0xff);
+      const children = popcount(words[i] & 0xff);
       if (words[i] === 0 || words[i] > 0xff || i + 1 + children > sections[d + 1]) fail();
       for (const end = i + children; i++ < end;) {
         if (words[i] >= words[23 + d]) fail();
@@ -136,9 +141,30 @@ function parse(words) {
   return {words, begin, sections, layers, finer, members};
 }
 
+// The number of covered cubes `depth` levels below the root, in the cube of each node, by place.
+function countCubes({words, sections}, depth) {
+  const counts = new Uint32Array(words.length), bricks = sections.length - 2;
+  for (let d = bricks; d >= 0; --d) {
+    for (let i = sections[d]; i < sections[d + 1];) {
+      const node = i, children = d < bricks ? popcount(words[i]) : 1;
+      if (d >= depth) {
+        counts[node] = 1;
+      } else if (d < bricks) {
+        for (let c = 1; c <= children; ++c) counts[node] += counts[sections[d + 1] + words[i + c]];
+      } else if (depth - d === 2) {
+        counts[node] = popcount(words[i]) + popcount(words[i + 1]);
+      } else {
+        for (let b = 0; b < 8; ++b) counts[node] += Number((words[i + (b >> 2)] >>> 8 * (b & 3) & 255) !== 0);
+      }
+      i += 1 + children;
+    }
+  }
+  return counts;
+}
+
 export class Tiles {
-  // `source`: {scene, tile(id): a promise of words}, which is requested again after an error with
-  // `retry`; `changed()` is called when a tile has come.
+  // `source`: {scene, tile(id), colours(id, level)}, of which two give promises of words, requested
+  // again after an error with `retry`; `changed()` is called when a tile or its colours have come.
   constructor(gl, source, budget, changed) {
     Object.assign(this, {source, changed});
     this.pool = new Pool(gl, budget);
@@ -154,7 +180,7 @@ export class Tiles {
     this.root = this.tile(source.scene.root);
   }
 
-  get count() { return [...this.byId.values()].filter((t) => t.state === 'ready').length; }
+  get count() { return [...this.byId.values()].filter((t) => t.state === 'ready' && t.octants).length; }
   get usedBytes() {
     let rows = TOP_ROWS;
     for (const tile of this.byId.values()) rows += tile.rows;
@@ -177,21 +203,27 @@ export class Tiles {
     ++this.pass;
     if (!same) this.still = this.pass;
     const {levels, tile_levels: depth} = this.source.scene;
-    const absent = new Set();
+    const absent = new Set(), uncoloured = new Set();
+    // Notes that a pixel needs a tile or its colours; returns whether they are there.
+    const need = (item, k, missing) => {
+      item.seen = this.pass;
+      if (item.state === 'ready') return true;
+      if (item.wanted !== this.pass) [item.wanted, item.pixels, item.level] = [this.pass, 0, k];
+      ++item.pixels;
+      missing.add(item);
+      return false;
+    };
     const see = (x, y, z) => {
       const needed = level(x, y, z);
-      let tile = this.root;
-      for (let k = 0;; ++k) {
-        tile.seen = this.pass;
-        if (tile.state !== 'ready') {
-          if (tile.wanted !== this.pass) [tile.wanted, tile.pixels, tile.level] = [this.pass, 0, k];
-          ++tile.pixels;
-          absent.add(tile);
+      let tile = this.root, colours = null;
+      for (let k = 0; need(tile, k, absent); ++k) {
+        if (tile.colours && !(colours?.cubes >= tile.colours.cubes)) colours = tile.colours;
+        if (k === 0 && colours) need(colours, 0, absent);
+        const s = levels - 1 - k, c = (x >> s & 1) << 2 | (y >> s & 1) << 1 | z >> s & 1;
+        if (k + depth >= needed || !tile.finer[c]) {
+          if (colours) need(colours, k, uncoloured);
           return;
         }
-        if (k + depth >= needed) return;
-        const s = levels - 1 - k, c = (x >> s & 1) << 2 | (y >> s & 1) << 1 | z >> s & 1;
-        if (!tile.finer[c]) return;
         tile = tile.octants[c] ??= this.tile(tile.finer[c]);
       }
     };
@@ -200,7 +232,9 @@ export class Tiles {
       if (hits[i + 3]) see(hits[i] & 0xfffff, hits[i + 1] & 0xfffff, hits[i + 2] & 0xfffff);
     }
     if (this.full) this.full = !this.oldest();
-    const open = this.full ? [] : [...absent].filter((t) => t.state !== 'failed');
+    const missing = (items) => this.full ? [] : [...items].filter((t) => t.state !== 'failed');
+    let open = missing(absent);
+    if (open.length === 0) open = missing(uncoloured);
     this.queue = [...new Set([...same ? this.queue : [], ...open])].filter((t) => t.state === 'absent');
     this.queue.sort((a, b) => a.level - b.level || b.pixels - a.pixels);
     this.request();
@@ -213,8 +247,7 @@ export class Tiles {
       if (tile.state !== 'absent') continue;
       tile.state = 'loading';
       ++this.loading;
-      this.source.tile(tile.id)
-        .then((words) => this.insert(tile, parse(words)))
+      this.load(tile)
         .catch(async (error) => {
           // A server that is being restarted answers again; a damaged tile stays damaged.
           if (error.retry) await new Promise((resolve) => setTimeout(resolve, 1000));
@@ -229,25 +262,65 @@ export class Tiles {
     }
   }
 
-  insert(tile, parsed) {
-    const {words, begin, sections, layers} = parsed;
-    const rows = Math.ceil((words.length - begin) / ROW);
+  // Loads a tile or the colours of one.
+  async load(item) {
+    if (item.octants) this.insert(item, parse(await this.source.tile(item.id)));
+    else this.insertColours(item, await this.source.colours(item.tile.id, item.cubes));
+  }
+
+  // The first of `rows` rows for a tile or its colours, or -1.
+  take(rows, item) {
     if (rows > LAYER_ROWS - TOP_ROWS) throw new Error('a tile is too large');
     let row;
     while ((row = this.pool.take(rows)) < 0) {
       if (!this.pool.grow() && !this.evict()) {
-        tile.state = 'absent';
+        item.state = 'absent';
         this.full = true;  // until a view needs less
         this.queue = [];
-        return;
+        break;
       }
     }
+    return row;
+  }
+
+  insertColours(item, words) {
+    if (words.length !== item.count) throw new Error('damaged colours');
+    if (item.tile.colours !== item) return;  // the tile has been evicted
+    const rows = Math.ceil(words.length / ROW), row = this.take(rows, item);
+    if (row < 0) return;
+    if (item.tile.colours !== item) return this.pool.give(row, rows);
+    this.pool.write(row, words);
+    this.bytes += 4 * words.length;
+    Object.assign(item, {state: 'ready', row, rows});
+  }
+
+  // The number of colours per node, of the finest level that they exist at and that has room.
+  coloursOf(tile, parsed) {
+    const {colours, tile_levels: depth} = this.source.scene;
+    if (!colours || colours.root_only && tile !== this.root) return null;
+    let cubes = Math.min(colours.level, tile.level + depth);
+    for (cubes -= (colours.level - cubes) % 2; cubes >= Math.max(1, tile.level); cubes -= 2) {
+      const counts = countCubes(parsed, cubes - tile.level), count = counts[parsed.sections[0]];
+      if (count > colours.max) continue;
+      tile.colours = {tile, cubes, count, state: 'absent', seen: 0, wanted: 0, rows: 0};
+      this.byId.set(`${tile.id}/colours`, tile.colours);
+      return counts;
+    }
+    return null;
+  }
+
+  insert(tile, parsed) {
+    const {words, begin, sections, layers} = parsed;
+    const rows = Math.ceil((words.length - begin) / ROW), row = this.take(rows, tile);
+    if (row < 0) return;
+    const counts = this.coloursOf(tile, parsed);
     const base = row * ROW - begin, count = sections.length - 1;
     const out = words.slice();
     for (let d = 0; d + 1 < count; ++d) {
       const flag = d + 2 === count ? BRICK : 0;
       for (let i = sections[d]; i < sections[d + 1];) {
-        const end = i + popcount8(words[i]);
+        const end = i + popcount(words[i]);
+        if (counts) out[i] |= counts[i] << 8;
         while (i++ < end) out[i] = base + sections[d + 1] + words[i] + flag;
       }
     }
@@ -282,7 +355,14 @@ export class Tiles {
     const oldest = this.oldest();
     if (!oldest) return false;
     this.pool.give(oldest.row, oldest.rows);
-    Object.assign(oldest, {state: 'absent', rows: 0, octants: Array(8).fill(null)});
+    Object.assign(oldest, {state: 'absent', rows: 0});
+    if (oldest.octants) {
+      oldest.octants = Array(8).fill(null);
+      const colours = oldest.colours;
+      if (colours?.rows) this.pool.give(colours.row, colours.rows);
+      if (colours) this.byId.delete(`${oldest.id}/colours`);
+      oldest.colours = null;
+    }
     this.update();
     return true;
   }
@@ -302,25 +382,28 @@ export class Tiles {
     if (this.root.state !== 'ready') return false;
     const drawn = (t) => t && t.state === 'ready' && this.still - t.seen <= RECENT;
     const out = [], done = new Map();
-    const entry = (node, layers) => out.push(node >>> 0, layers >>> 0) - 2 + ENTRY;
-    const build = (tile) => {
+    const entry = (node, layers, colours) => out.push(node >>> 0, layers >>> 0, colours ? colours.address : NOTHING) - 3 + ENTRY;
+    const build = (tile, k, colours) => {
       let pointer = done.get(tile.id);
       if (pointer !== undefined) return pointer;
+      const own = tile.colours;
+      if (own?.state === 'ready' && !(colours?.cubes >= own.cubes))
+        colours = {cubes: own.cubes, address: out.push(tile.pointer, own.row * ROW, k, own.cubes) - 4};
       if (!tile.octants.some(drawn) || out.length > (TOP_ROWS - 1) * ROW) {
-        pointer = entry(tile.pointer, tile.layerRoot);
+        pointer = entry(tile.pointer, tile.layerRoot, colours);
       } else {
         const node = [tile.mask];
         for (let c = 0; c < 8; ++c) {
           if (!(tile.mask >> c & 1)) continue;
           const octant = tile.octants[c];
-          node.push(drawn(octant) ? build(octant) : entry(tile.nodes[c], tile.octantLayers[c]));
+          node.push(drawn(octant) ? build(octant, k + 1, colours) : entry(tile.nodes[c], tile.octantLayers[c], colours));
         }
         pointer = out.push(...node) - node.length;
       }
       done.set(tile.id, pointer);
       return pointer;
     };
-    this.top = build(this.root);
+    this.top = build(this.root, 0, null);
     const key = out.join();
     if (key === this.topKey) return false;
     this.topKey = key;

@@ -50,8 +50,9 @@ uniform usampler2D sets;       // [set]: its first layer that is shown, or HIDDE
 uniform bool someHidden;
 layout(location = 0) out uvec4 hit;
 
-const uint BRICK = 0x80000000u, ENTRY = 0x40000000u, SET = 0x80000000u, HIDDEN = 0xffffffffu;
+const uint BRICK = 0x80000000u, ENTRY = 0x40000000u, SET = 0x80000000u, HIDDEN = 0xffffffffu, NOTHING = 0xffffffffu;
 const int MAX_STEPS = 4095;
+const bool HAS_COLOURS = OF_SCENE;  // else the compiler drops what is about them
 
 uint word(uint at) {
   return texelFetch(pool, ivec3(at & 1023u, at >> 10u & 2047u, at >> 21u & 255u), 0).r;
@@ -60,6 +61,16 @@ uint popcount8(uint v) {
   v -= v >> 1u & 0x55u;
   v = (v & 0x33u) + (v >> 2u & 0x33u);
   return v + (v >> 4u) & 15u;
+}
+uint popcount32(uint v) {
+  v -= v >> 1u & 0x55555555u;
+  v = (v & 0x33333333u) + (v >> 2u & 0x33333333u);
+  return ((v + (v >> 4u) & 0x0f0f0f0fu) * 0x01010101u) >> 24u;
+}
+// The mask of the bytes that are not 0.
+uint bytes_set(uint v) {
+  return uint((v & 0xffu) != 0u) | uint((v & 0xff00u) != 0u) << 1u | uint((v & 0xff0000u) != 0u) << 2u |
+         uint(v >> 24u != 0u) << 3u;
 }
 // Of v < 2^24, not 0.
 int highest_bit(int v) { return (floatBitsToInt(float(v)) >> 23) - 127; }
@@ -70,6 +81,9 @@ uint octant(ivec3 cell, int shift) {
   return uint(bit.x << 2 | bit.y << 1 | bit.z);
 }
 
+ivec3 cell;    // the current one, mirrored
+uint flip;     // the axes that are
+uint colours;  // of the tile (tiles.js), or NOTHING
 // The ray, mirrored. At the time begin + t it is at base + start + t * slope.
 ivec3 eye, pieces[3];
 vec3 fraction, slope, inverse_slope;
@@ -86,12 +100,38 @@ void place(ivec3 corner, float t) {
 }
 vec3 times(ivec3 plane) { return (vec3(plane - base) - start) * inverse_slope; }
 
-void main() {
+// The number of cubes with colours, below levels below a node.
+uint colours_in(uint node, int below) {
+  if (below == 0) return 1u;
+  if ((node & BRICK) == 0u) return word(node) >> 8u;
+  uint low = word(node - BRICK), high = word(node - BRICK + 1u);
+  return below == 2 ? popcount32(low) + popcount32(high) : popcount8(bytes_set(low) | bytes_set(high) << 4u);
+}
+// The colour of the cube around a cell that is set (tiles.js).
+uint colour_of() {
+  uint node = word(colours), at = word(colours + 1u);
+  int end = int(word(colours + 3u));
+  for (int k = int(word(colours + 2u)); k < end; ++k) {
+    uint c = octant(cell, levels - 1 - k) ^ flip;
+    if ((node & BRICK) != 0u) {
+      uint low = word(node - BRICK), high = word(node - BRICK + 1u);
+      if (end - k == 1) return word(at + popcount8((bytes_set(low) | bytes_set(high) << 4u) & (1u << c) - 1u));
+      uint bit = (c & 3u) << 3u | (octant(cell, levels - 2 - k) ^ flip), before = (1u << bit) - 1u;
+      return word(at + (c < 4u ? popcount32(low & before) : popcount32(low) + popcount32(high & before)));
+    }
+    uint child = node + 1u;
+    for (uint left = word(node) & (1u << c) - 1u; left != 0u; left &= left - 1u)
+      at += colours_in(word(child++), end - k - 1);
+    node = word(child);
+  }
+  return word(at);
+}
+void traverse() {
   hit = uvec4(0);
   int size = 1 << levels;
   ivec3 coarse, fine;
   direction(pixel(), coarse, fine);
-  uint flip = 0u;
+  flip = 0u;
   ivec3 cell_min = clipMin, cell_max = clipMax;
   for (int a = 0; a < 3; ++a) {
     eye[a] = eyeCell[a];
@@ -118,13 +158,14 @@ void main() {
   if (enter >= smallest(times(cell_max))) return;
   place(cell_min, enter);
   enter = max(largest(times(cell_min)), -begin);
-  ivec3 cell = clamp(base + ivec3(floor(start + slope * enter)), cell_min, cell_max - 1);
+  cell = clamp(base + ivec3(floor(start + slope * enter)), cell_min, cell_max - 1);
   float now = enter;
 
   uint path[21];
   path[0] = top;
   int level = 0, entry_level = 0;
   uint layers = SET;
+  colours = NOTHING;
   for (int steps = 0; steps < MAX_STEPS; ++steps) {
     int shift;  // of the cube to leave
     uint node = path[level];
@@ -134,6 +175,7 @@ void main() {
         uint at = node - ENTRY;
         node = word(at);
         layers = word(at + 1u);
+        if (HAS_COLOURS) colours = word(at + 2u);
         path[level] = node;
         entry_level = level;
         ivec3 corner = cell & -1 << (levels - level);
@@ -162,7 +204,7 @@ void main() {
         for (int a = 0; a < 3; ++a) {
           if ((flip & 4u >> uint(a)) != 0u) near[a] = size - (1 << shift) - near[a];
         }
-        hit = uvec4(near.x, near.y, near.z, uint(levels - shift) | axis << 5u | 128u);
+        hit = uvec4(near.x, near.y, near.z, uint(levels - shift) | axis << 5u);
         hit.x |= uint(steps) << 20u;
         hit.y |= (set & 4095u) << 20u;
         hit.z |= set >> 12u << 20u;
@@ -183,6 +225,14 @@ void main() {
     cell = next;
     level = min(level, levels - 1 - highest_bit(changed.x | changed.y | changed.z));
   }
+}
+
+// The look-up is not in the loop, where SwiftShader would run it in every step.
+void main() {
+  traverse();
+  if (!HAS_COLOURS || hit.w == 0u || colours == NOTHING) return;
+  uint colour = colour_of();
+  if (colour != NOTHING) hit.w |= 128u | colour << 8u;
 }`;
 
 const SHADE = RAYS + `
@@ -252,6 +302,7 @@ void main() {
     uint c = texelFetch(colours, ivec2(layer & 1023u, layer >> 10u), 0).r;
     base = linear(vec3(c & 255u, c >> 8u & 255u, c >> 16u & 255u) / 255.);
   }
+  if ((hit.w & 128u) != 0u && mode == 5) base = linear(vec3(hit.w >> 8u & 255u, hit.w >> 16u & 255u, hit.w >> 24u) / 255.);
   float shade = .28 + .72 * max(dot(normal, light), 0.) + .12 * normal[axis];
   vec3 lit = base * max(shade, .12);
   if (mode == 2) lit = linear(.5 + .5 * normal);
@@ -277,7 +328,7 @@ const LIMB = 2 ** 18;
 export class Tracer {
   constructor(gl, scene) {
     Object.assign(this, {gl, scene});
-    this.trace = this.program(TRACE);
+    this.trace = this.program(TRACE.replace('OF_SCENE', Boolean(scene.colours)));
     this.shade = this.program(SHADE);
     this.hits = gl.createTexture();
     this.target = gl.createFramebuffer();
@@ -407,7 +458,8 @@ export class Tracer {
 
   // The hits of a part of the last picture, from the lower left, 4 words each; w is 0 without one:
   //   x, y, z   low 20 bits: the cell's corner; high 12 bits: steps; low and high bits of the set
-  //   w         low 5 bits: the cell's level; bits 5, 6: the axis of the face that the ray entered
+  //   w         low 5 bits: the cell's level; bits 5, 6: the axis of the face that the ray entered;
+  //             bit 7: it has a colour; bits 8 to 31: red, green, blue
   read(x = 0, y = 0, width = this.width, height = this.height) {
     const gl = this.gl, words = new Uint32Array(4 * width * height);
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.target);

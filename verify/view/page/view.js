@@ -4,7 +4,7 @@ import {Tiles} from './tiles.js';
 import {Tracer} from './trace.js';
 
 const AXES = ['x', 'y', 'z'];
-const MODES = ['surface', 'layer', 'normal', 'level', 'steps'];
+const MODES = ['surface', 'layer', 'normal', 'level', 'steps', 'colour'], COLOUR = 5;
 const NO_LAYER = 0xfffffffe, HIDDEN = 0xffffffff;
 const HELP = 'Drag: turn. Shift or right drag, two fingers: move. Wheel, + and -: zoom. Arrows: turn. W A S D Q E: fly. ' +
   'F: turn around the eye. Home: all. Click: pick a voxel.';
@@ -18,7 +18,7 @@ function element(tag, properties = {}, ...children) {
 const grouped = (n) => String(n).replace(/\B(?=(\d{3})+(?!\d))/g, ',');
 const megabytes = (n) => `${(n / 2 ** 20).toFixed(1)} MB`;
 
-// Starts a viewer in `parent`. `source`: {scene, tile(id): a promise of words}. Returns it, or null
+// Starts a viewer in `parent`. `source`: see Tiles. Returns it, or null
 // where WebGL2 is missing, which the page then reports.
 export function start(parent, source) {
   const canvas = element('canvas', {tabIndex: 0});
@@ -40,7 +40,7 @@ class Viewer {
     this.camera = new Camera(scene.up, scene.bounds);
     this.size = 2 ** scene.levels;
     this.clip = scene.bounds.map((corner) => [...corner]);
-    this.mode = scene.layers.length > 0 ? 1 : 0;
+    this.mode = scene.colours ? COLOUR : scene.layers.length > 0 ? 1 : 0;
     this.hidden = new Set();   // layers
     this.detail = 1;           // pixels per cell; 0: every voxel
     this.budget = 256 * 2 ** 20;
@@ -181,7 +181,8 @@ class Viewer {
     this.status = element('div', {className: 'dim'});
     this.picture = element('output', {textContent: 'Click a voxel.'});
     const mode = element('select', {title: 'Colours'}, ...MODES.map((name, i) => element('option', {value: i, textContent: name})));
-    if (scene.layers.length === 0) mode.options[1].disabled = true;
+    mode.options[1].disabled = scene.layers.length === 0;
+    mode.options[COLOUR].disabled = !scene.colours;
     mode.value = this.mode;
     mode.onchange = () => { this.mode = Number(mode.value); this.touch(); };
     const button = (textContent, onclick) => element('button', {type: 'button', textContent, onclick});
@@ -263,9 +264,11 @@ class Viewer {
       const voxel = [...hit.subarray(0, 3)].map((v) => v & 0xfffff), level = hit[3] & 31, side = 2 ** (scene.levels - level);
       const set = this.tiles.sets[hit[1] >>> 20 | hit[2] >>> 20 << 12];
       const world = voxel.map((v, a) => scene.corner[a] + (v + side / 2) * scene.voxel_size);
-      this.picked = {voxel, level, cube: [...voxel, side], layers: set};
+      const colour = hit[3] & 128 ? [8, 16, 24].map((bit) => hit[3] >>> bit & 255) : null;
+      this.picked = {voxel, level, cube: [...voxel, side], layers: set, colour};
       this.picture.textContent = `voxel ${voxel.join(', ')}\nlevel ${level} of ${scene.levels}` + (side > 1 ? ` (${side} voxels wide)` : '') +
         `\nat ${world.map((v) => +v.toPrecision(9)).join(', ')}` +
+        (colour ? `\ncolour #${colour.map((v) => v.toString(16).padStart(2, '0')).join('')}` : '') +
         (scene.layers.length > 0 ? `\n${set.map((i) => scene.layers[i].name).join('\n') || 'in no layer'}` : '');
     }
     this.touch();
