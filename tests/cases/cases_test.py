@@ -57,7 +57,7 @@ SCENES = {
 OF_LIBRARIES = ("draco", "meshopt", ".dae", ".3mf", ".fbx")
 UNITS = {"3mf_thumbnail.3mf": [0.001], "3mf_inch.3mf": [0.0254], "fbx_6100.fbx": [0.01]}
 UNDEFORMED = ("fbx_blend_shape.fbx", "fbx_blend_shape_no_normals.fbx")
-REFUSED = {"3mf_beams_only.3mf": "1 beams of beam lattices are not baked"}
+REFUSED = {"3mf_beams_only.3mf": "1 beam of beam lattices is not baked"}
 VOXELS = {"vox_rotated.vox": 5, "npz_compressed.npz": 2, "npy_big_endian.npy": 2}
 
 
