@@ -1,5 +1,6 @@
 // The judge of colours: files that the builder colours pass at every level, and each error that is
 // planted is found.
+#ifdef SVDAG_HAS_IMAGE_DECODERS
 #include "verify/colours/colour_judge.h"
 
 #include <gtest/gtest.h>
@@ -246,3 +247,4 @@ TEST_F(ColourJudgement, TheSameDrawIsMadeOfASeed) {
 
 }  // namespace
 }  // namespace svdag
+#endif  // SVDAG_HAS_IMAGE_DECODERS
