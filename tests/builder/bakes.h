@@ -5,6 +5,7 @@
 
 #include "builder/build.h"
 #include "io/dag/dag_file.h"
+#include "io/dag/graph/select.h"
 
 namespace svdag {
 
@@ -26,6 +27,11 @@ inline BuildReport bake(const BuildConfig& config, Executor* executor) {
 inline BuildReport bake(const BuildConfig& config, size_t threads = 1) {
   ParallelExecutor executor(threads);
   return bake(config, &executor);
+}
+
+// The voxels of one layer, as a file without layers.
+inline DagFile layer_alone(const DagFile& file, const std::string& name, const WorkRoom& room) {
+  return derive(derive(file, {.layers = {name}}, room), {.without_layers = true}, room);
 }
 
 // The sections and the layer table of a plain file, without the facts about the scene in its header.

@@ -113,8 +113,8 @@ class Layers : public ::testing::Test {
     for (size_t i = 0; i < chosen.size(); ++i) {
       const Layer &mine = file.layers().layers[i], &its = layers[chosen[i]];
       EXPECT_TRUE(mine.name == its.name && mine.colour == its.colour && mine.voxels == its.voxels);
-      EXPECT_EQ(nodes_of(derive(file, {.layers = {its.name}}, room_)),
-                nodes_of(derive(plain, {.layers = {its.name}}, room_)));
+      EXPECT_EQ(nodes_of(layer_alone(file, its.name, room_)),
+                nodes_of(layer_alone(plain, its.name, room_)));
       paths.push_back(folder_.file(its.name));
     }
     const bool is_or = !solids_ && config.rule != Rule::kSolid;
@@ -148,10 +148,10 @@ class Layers : public ::testing::Test {
     for (size_t i = 0; i < plain.layers().layers.size(); ++i) {
       const std::string& name = plain.layers().layers[i].name;
       const std::string path = folder_.file(name);
-      EXPECT_EQ(nodes_of(derive(file, {.layers = {name}}, room_)), alone(config, {path})) << path;
+      EXPECT_EQ(nodes_of(layer_alone(file, name, room_)), alone(config, {path})) << path;
       // A view of the layer in the file's own layout has its voxels, too.
       const DagView view = file.view_of(i);
-      const DagFile one = derive(plain, {.layers = {name}}, room_);
+      const DagFile one = layer_alone(plain, name, room_);
       for (int ray = 0; ray < 200; ++ray) {
         const uint32_t x = uint32_t(pick(view.resolution())), y = uint32_t(pick(view.resolution())),
                        z = uint32_t(pick(view.resolution()));

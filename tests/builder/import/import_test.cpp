@@ -181,7 +181,7 @@ TEST(ImportVoxels, EachLayerIsTheImportOfItsVoxelsAndTheUnionThatOfAll) {
       EXPECT_EQ(file.layers().layers[number].colour, table.layers[label].colour);
       EXPECT_EQ(import_list(own, folder.file("own.svdag"), levels).voxels,
                 file.layers().layers[number].voxels);
-      EXPECT_EQ(nodes_of(derive(file, {.layers = {table.layers[label].name}}, room)),
+      EXPECT_EQ(nodes_of(layer_alone(file, table.layers[label].name, room)),
                 nodes_of(DagFile::open(folder.file("own.svdag"))));
     }
     // In little memory, and without layers in the end.
