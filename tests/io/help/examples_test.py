@@ -65,6 +65,8 @@ LINES = {"svdag build": "city.ply -o other.svdag -r 64", "svdag batch": "city.li
          "svdag-verify report": "city.svdag city.json -o city.html --size 16x16",
          "svdag-verify view": "city.svdag --to page",
          "svdag-trace": "city.svdag --size 16x16 --samples 1 --rounds 1"}
+# Of options of one format.
+LINES_WITH = {("svdag export", "--up"): "city.svdag -o out.vox", ("svdag import", "--up"): "city.vox -o in.svdag"}
 BY_MACHINE = ["--vectors"]  # the values depend on the processor
 
 
@@ -75,7 +77,7 @@ class Choices(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory(prefix="svdag-choices-")
         for line in ("svdag-scene city -n 2K -q -o city.ply", "svdag build city.ply -q -o city.svdag -r 64 --report city.json",
-                     "svdag export city.svdag -q -o city.npz"):
+                     "svdag export city.svdag -q -o city.npz", "svdag export city.svdag -q -o city.vox"):
             assert cls.run_line(line).returncode == 0, line
 
     @classmethod
@@ -88,7 +90,8 @@ class Choices(unittest.TestCase):
                               env=dict(os.environ, PATH=f"{PROGRAMS}:/usr/bin:/bin"))
 
     def refused(self, command, option, value):
-        done = self.run_line(f"{command} {LINES[command]} {option.names[-1]} {value}")
+        line = LINES_WITH.get((command, option.names[-1]), LINES[command])
+        done = self.run_line(f"{command} {line} {option.names[-1]} {value}")
         return done.returncode == USAGE and f"{option.names[-1]}: " in done.stderr
 
     def test_exactly_the_offered_values_are_accepted(self):
