@@ -4,8 +4,7 @@
 // triangles. Only the positions of an indexed primitive are held (mesh_writer.h), and small
 // primitives that nodes share; indices, unindexed positions and instances pass through small
 // windows. Animations are applied at a time (gltf_animation.h), skins and morph targets
-// (gltf_pose.h), except to Draco primitives, whose triangles are counted as undeformed and whose
-// materials are not cut out. Points and
+// (gltf_pose.h), except to Draco primitives, whose triangles are counted as undeformed. Points and
 // lines are skipped. A Draco primitive that also has plain data is read from the plain data, which
 // is exact.
 #include <algorithm>
@@ -100,8 +99,8 @@ class GltfReader {
       }
       const GltfCutOut* cut = cut_of(primitive, material);
       if (material && cut == nullptr) count_transparent(*material);
-      if (cut != nullptr && !draco_.holds(primitive) &&
-          has_vertex_alpha(document_, primitive, &buffers_))
+      if (cut != nullptr && draco_.attributes_of(primitive).has("COLOR_0") &&
+          has_vertex_alpha(attribute_of(value, "COLOR_0", GltfBuffers::kAnyType)))
         left_out_.add(Omission::kVertexAlpha);
       if (cut != nullptr && cut->cut.is_opaque()) cut = nullptr;
       const GltfPaint* const paint = paint_of(primitive, material, cut);
@@ -279,6 +278,13 @@ class GltfReader {
          GltfPose::is_skinned(node, primitive) ? &once : instances, add_vertices, add_triangles);
   }
 
+  // An attribute that the primitive of the JSON value `key` has, compressed or not.
+  Accessor attribute_of(const nlohmann::json& key, const std::string& name, const char* type) {
+    if (const DracoPrimitive* const draco = draco_.find(key)) return draco->attributes.at(name);
+    const JsonObject primitive(key, document_.file->path());
+    return buffers_.accessor(primitive.object("attributes").whole_number(name.c_str()), type);
+  }
+
   // Draws a primitive whose material is cut, or whose points have colours of their own: all of its
   // vertices are held. `cut` or `paint` may be null.
   void draw_textured(const GltfCutOut* cut, const GltfPaint* paint, const JsonObject& node,
@@ -289,10 +295,7 @@ class GltfReader {
     if (draco != nullptr) mode = kTriangles;
     const Accessor positions = draco != nullptr ? draco->positions : positions_of(primitive);
     const auto attribute = [&](const std::string& name, const char* type) {
-      return draco != nullptr
-                 ? draco->attributes.at(name)
-                 : buffers_.accessor(primitive.object("attributes").whole_number(name.c_str()),
-                                     type);
+      return attribute_of(key, name, type);
     };
     const uint64_t count = positions.count();
     const auto memory =

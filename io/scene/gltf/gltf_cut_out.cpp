@@ -69,15 +69,11 @@ GltfCutOut cut_out_of(const GltfDocument& document, const JsonObject& material,
   return result;
 }
 
-bool has_vertex_alpha(const GltfDocument& document, const JsonObject& primitive,
-                      GltfBuffers* buffers) {
-  const JsonObject attributes = primitive.object("attributes");
-  if (!attributes.has("COLOR_0")) return false;
-  const uint64_t number = attributes.whole_number("COLOR_0");
-  if (document.element("accessors", number).text("type") != "VEC4") return false;
-  ElementStream colours(buffers->accessor(number, "VEC4"));
+bool has_vertex_alpha(const Accessor& colours) {
+  if (colours.base.components != 4) return false;
+  ElementStream stream(colours);
   std::array<double, 2048> window;
-  while (const size_t n = colours.read(std::span<double>(window))) {
+  while (const size_t n = stream.read(std::span<double>(window))) {
     for (size_t i = 0; i < n; ++i) {
       if (window[4 * i + 3] != 1) return true;
     }

@@ -34,8 +34,7 @@ GltfDocument load_with_cut_outs(const File& file, MemoryBudget* budget, GltfPart
 GltfCutOut cut_out_of(const GltfDocument& document, const JsonObject& material,
                       GltfBuffers* buffers, AlphaImages* images);
 
-// Whether a vertex of `primitive` has another alpha in COLOR_0 than 1.
-bool has_vertex_alpha(const GltfDocument& document, const JsonObject& primitive,
-                      GltfBuffers* buffers);
+// Whether a vertex has another alpha than 1; `colours`: its COLOR_0.
+bool has_vertex_alpha(const Accessor& colours);
 
 }  // namespace svdag

@@ -53,11 +53,10 @@ DracoPrimitives::Packed DracoPrimitives::pack(const nlohmann::json& value) {
   if (!has_texture(primitive)) return packed;
   for (const std::string& name : ids.names()) {
     const bool is_colour = name == "COLOR_0";
-    if ((!is_colour && !name.starts_with("TEXCOORD_")) || !accessors.has(name.c_str())) continue;
-    if (is_colour && options_.paints == nullptr) continue;
-    const uint64_t components = is_colour && accessor_of("COLOR_0").text("type") == "VEC4" ? 4
-                                : is_colour                                                ? 3
-                                                                                           : 2;
+    if (!is_colour && !name.starts_with("TEXCOORD_")) continue;
+    const uint64_t components = !is_colour                                      ? 2
+                                : accessor_of("COLOR_0").text("type") == "VEC4" ? 4
+                                                                                : 3;
     packed.names.push_back(name);
     packed.source.attributes.push_back({ids.whole_number(name.c_str()), components});
   }

@@ -19,7 +19,7 @@ namespace svdag {
 
 struct DracoPrimitive {
   Accessor positions, indices;
-  // That colour, if colours of points are wanted, and the places in the textures that cut out.
+  // Texture coordinates and colours, if colours of points are wanted or the material is cut out.
   std::map<std::string, Accessor> attributes;
   double step = 0;  // distance of the quantised positions, 0 if they are not
 };

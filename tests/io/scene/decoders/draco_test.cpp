@@ -142,7 +142,7 @@ std::array<float, 2> texture_at(const std::array<float, 3>& p, size_t face) {
   return {p[0] / 8 + (face % 2 == 0 ? 0.0f : 0.5f), p[1] / 4};
 }
 std::array<uint8_t, 4> colour_at(const std::array<float, 3>& p, size_t face) {
-  return {uint8_t(10 * p[0]), uint8_t(10 * p[1]), uint8_t(face % 2 == 0 ? 51 : 204), 255};
+  return {uint8_t(10 * p[0]), uint8_t(10 * p[1]), uint8_t(face % 2 == 0 ? 51 : 204), 200};
 }
 
 std::string encode_painted(int n, draco::MeshEncoderMethod method) {
@@ -242,14 +242,21 @@ TEST_P(DracoMethods, TextureCoordinatesAndColoursOfVerticesAreDecodedIfTheyAreWa
   gltf.json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"][3] = 0.25;
   for (const bool coloured : {false, true}) {
     size_t cut = 0;
-    read(coloured, [&](const TriangleBatch& batch) {
+    const LeftOut left_out = read(coloured, [&](const TriangleBatch& batch) {
       ASSERT_NE(batch.cut, nullptr);
       EXPECT_TRUE(batch.cut->is_transparent());
       EXPECT_EQ(batch.texture.size(), batch.triangles.size());
       cut += batch.triangles.size();
     });
     EXPECT_EQ(cut, size_t(2 * n * n));
+    EXPECT_EQ(left_out[size_t(Omission::kVertexAlpha)], 1u);
   }
+  json& attributes = gltf.json["meshes"][0]["primitives"][0]["attributes"];
+  attributes.erase("TEXCOORD_0");  // the compressed ones count
+  read(true, [](const TriangleBatch& batch) { EXPECT_FALSE(batch.texture.empty()); });
+  attributes.erase("COLOR_0");
+  EXPECT_SVDAG_ERROR(read(true, [](const TriangleBatch&) {}), ExitCode::kBadInput, "COLOR_0");
+  attributes["COLOR_0"] = 2;
   gltf.json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"]["attributes"]
            ["TEXCOORD_0"] = 7;
   EXPECT_SVDAG_ERROR(read(true, [](const TriangleBatch&) {}), ExitCode::kBadInput,
