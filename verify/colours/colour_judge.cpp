@@ -15,8 +15,7 @@
 namespace svdag {
 namespace {
 
-constexpr double kRounding = 1;             // steps
-constexpr uint64_t kMaxCubesInside = 4096;  // of a coarser cube that is judged
+constexpr double kRounding = 1;  // steps
 
 // Counts of the cubes of the colour level.
 class CoveredCubes {
@@ -44,31 +43,8 @@ class CoveredCubes {
     }
     return cube.morton;
   }
-  // Calls visit(code) for the cubes inside the one of `level` with this code, if they are few.
-  // Returns whether they are.
-  template <class Visit>
-  bool visit_inside(uint32_t level, uint64_t code, const Visit& visit) const {
-    CoveredCube cube;
-    while (cube.level < level) {
-      const uint64_t next = code >> 3 * (level - cube.level - 1);
-      CoveredCube found;
-      for_covered_children(dag_, cube, [&](const CoveredCube& child) {
-        if (child.morton == next) found = child;
-      });
-      cube = found;
-    }
-    if (counts_.of(cube) > kMaxCubesInside) return false;
-    visit_below(cube, visit);
-    return true;
-  }
 
  private:
-  template <class Visit>
-  void visit_below(const CoveredCube& cube, const Visit& visit) const {
-    if (cube.level == level_) return visit(cube.morton);
-    for_covered_children(dag_, cube, [&](const CoveredCube& child) { visit_below(child, visit); });
-  }
-
   const DagView& dag_;
   uint32_t level_;
   ColourCountTables counts_;
@@ -189,7 +165,9 @@ class ColourJudge {
         error_(double(file.header().colour_error) / kColourErrorUnit) {}
 
   void judge(uint64_t code, const CubeEstimate& estimate) {
-    const uint32_t stored = colour(level_, code);
+    const LatticePoint cube = cell_of_code(code);
+    const uint32_t stored = svdag_colour(colours_.view(), level_, uint32_t(cube.x),
+                                         uint32_t(cube.y), uint32_t(cube.z));
     if (!estimate.is_touched()) {
       ++(stored == kNoColour ? out_.without_colour : out_.without_triangle);
       return;
@@ -199,7 +177,7 @@ class ColourJudge {
       return;
     }
     ++out_.judged;
-    WrongColour w{cell_of_code(code), level_, stored, {}, {}, 0};
+    WrongColour w{cube, stored, {}, {}, 0};
     for (size_t c = 0; c < 3; ++c) {
       const double mean = estimate.mean(c), tolerance = estimate.tolerance(c);
       check(c, mean, std::max(0.0, mean - tolerance), std::min(1.0, mean + tolerance),
@@ -208,31 +186,9 @@ class ColourJudge {
         differences_.push_back(std::abs(channel_of(stored, c) - std::round(w.expected[c])));
       allowed_ += w.allowed[c];
     }
-    count(w, &out_.wrong);
-  }
-
-  // A coarser cube has the mean of what the cubes of the colour level inside have before they are
-  // encoded.
-  void judge_coarser(const CoveredCubes& cubes, uint32_t level, uint64_t code) {
-    std::array<double, 3> sum{}, low{}, high{};
-    double number = 0;
-    const bool few = cubes.visit_inside(level, code, [&](uint64_t inside) {
-      const uint32_t stored = colour(level_, inside);
-      if (stored == kNoColour) return;
-      ++number;
-      for (size_t c = 0; c < 3; ++c) {
-        const double value = channel_of(stored, c), error = error_ + 0.5;
-        sum[c] += light_of_srgb(value);
-        low[c] += light_of_srgb(std::max(0.0, value - error));
-        high[c] += light_of_srgb(std::min(255.0, value + error));
-      }
-    });
-    if (!few || number == 0) return;
-    ++out_.coarser;
-    WrongColour w{cell_of_code(code), level, colour(level, code), {}, {}, 0};
-    for (size_t c = 0; c < 3; ++c)
-      check(c, sum[c] / number, low[c] / number, high[c] / number, 0, &w);
-    count(w, &out_.coarser_wrong);
+    if (w.excess <= 0) return;
+    ++out_.wrong;
+    out_.worst.push_back(w);
   }
 
   ColourComparison result() {
@@ -250,12 +206,6 @@ class ColourJudge {
   ColourComparison* out() { return &out_; }
 
  private:
-  uint32_t colour(uint32_t level, uint64_t code) const {
-    const LatticePoint cube = cell_of_code(code);
-    return svdag_colour(colours_.view(), level, uint32_t(cube.x), uint32_t(cube.y),
-                        uint32_t(cube.z));
-  }
-
   // Of linear light: a right colour before it is encoded is in low .. high. `steps`: allowed beside
   // codec and rounding.
   void check(size_t channel, double mean, double low, double high, double steps,
@@ -270,12 +220,6 @@ class ColourJudge {
                           : difference > 0       ? difference - above - fixed
                                                  : -difference - below - fixed;
     w->excess = std::max(w->excess, excess);
-  }
-
-  void count(const WrongColour& w, uint64_t* wrong) {
-    if (w.excess <= 0) return;
-    ++*wrong;
-    out_.worst.push_back(w);
   }
 
   DagColours colours_;
@@ -308,13 +252,6 @@ ColourComparison compare_colours(const Scene& scene, const DagFile& file, const 
   judge.out()->covered = cubes.count();
   judge.out()->drawn = codes.size();
   for (size_t i = 0; i < codes.size(); ++i) judge.judge(codes[i], sample.estimates()[i]);
-  std::vector<uint64_t> around = codes;
-  for (uint32_t level = file.header().colour_level; level >= 2;) {
-    level -= 2;
-    for (uint64_t& code : around) code >>= 6;
-    around.erase(std::unique(around.begin(), around.end()), around.end());
-    for (const uint64_t code : around) judge.judge_coarser(cubes, level, code);
-  }
   return judge.result();
 }
 

@@ -1,6 +1,6 @@
 // Judges the colours of a .svdag by its scene: those of cubes drawn from the covered ones, each
-// with the mean over the triangles inside (verify/colours/cube_estimate.h), and those of the
-// coarser cubes around these with the mean of the stored colours inside.
+// with the mean over the triangles inside (verify/colours/cube_estimate.h). The means of coarser
+// cubes follow from these; verify/integrity checks them.
 //
 // A colour is wrong if a channel is off by more than the error of the file's codec, a step for
 // rounding, two for decoders of JPEG, and the tolerance of the estimate. The scene is read once:
@@ -25,8 +25,7 @@ struct ColourDraw {
 };
 
 struct WrongColour {
-  LatticePoint cube;  // of `level`, in units of its side
-  uint32_t level = 0;
+  LatticePoint cube;                 // of the colour level, in units of its side
   uint32_t stored = 0;               // r | g << 8 | b << 16, or kNoColour
   std::array<double, 3> expected{};  // sRGB, 0 .. 255
   std::array<double, 3> allowed{};   // largest difference, of steps
@@ -43,14 +42,12 @@ struct ColourComparison {
   uint64_t without_triangle = 0;  // drawn: with a colour; the scene is another one
   uint64_t judged = 0;            // of the colour level: the others that were drawn
   uint64_t wrong = 0;
-  uint64_t coarser = 0;  // judged
-  uint64_t coarser_wrong = 0;
   // Of the judged cubes' channels, in steps of sRGB, of colours of 8 bits; 0 without any.
   double mean = 0, permille_999 = 0, largest = 0;
   double mean_allowed = 0;         // mean of the largest difference that is not wrong
   std::vector<WrongColour> worst;  // at most kShown, the largest excess first
 
-  bool agrees() const { return wrong == 0 && coarser_wrong == 0; }
+  bool agrees() const { return wrong == 0; }
 };
 
 // `file` has colours; `scene` is read with `colours`, `paint` and `keep_images`. Errors as

@@ -30,8 +30,7 @@ void add_wrong_colours(Verdict* verdict, const ColourComparison& c) {
         key + "cube", "  wrong",
         shown(std::array{w.cube.x, w.cube.y, w.cube.z},
               "cube (" + std::to_string(w.cube.x) + ", " + std::to_string(w.cube.y) + ", " +
-                  std::to_string(w.cube.z) + ") of level " + std::to_string(w.level)));
-    verdict->for_programs(key + "level", w.level);
+                  std::to_string(w.cube.z) + ")"));
     verdict->also(key + "stored", colour_or_none(w.stored));
     verdict->also(key + "expected", shown(colour_text(expected_colour(w)),
                                           "the scene has " + colour_text(expected_colour(w))));
@@ -50,7 +49,6 @@ Verdict verdict_of(const DagFile& file, const SceneFacts& facts, const ColourCom
   verdict.add("covered", "cubes", c.covered, "covered");
   verdict.also("drawn", c.drawn, "drawn");
   verdict.also("judged", c.judged, "judged");
-  verdict.also("coarser", c.coarser, "coarser ones judged");
   verdict.add("without_mean", "  left out", c.without_mean, "that triangles only touch");
   verdict.also("without_colour", c.without_colour, "without a triangle or a colour");
   verdict.hide(c.judged == 0);
@@ -60,7 +58,6 @@ Verdict verdict_of(const DagFile& file, const SceneFacts& facts, const ColourCom
   verdict.add("allowed_mean", "allowed", rounded(c.mean_allowed, "mean %.2f"), "steps");
   verdict.hide(false);
   verdict.add("wrong", "wrong", c.wrong, "cubes");
-  verdict.also("coarser_wrong", c.coarser_wrong, "coarser ones");
   add_wrong_colours(&verdict, c);
   const bool ok = c.agrees() && facts.grid.defects.empty();
   verdict.add("ok", "",

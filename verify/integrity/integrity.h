@@ -12,7 +12,7 @@
 //   * the union of a surface rule is exactly the voxels of the layers (union_check.h);
 //   * the metadata matches the header, with every key once, in the format's exact words;
 //   * without its colours the file has its content hash, and the colours have theirs; each entry of
-//     them is a cube of the DAG (integrity_colours.cpp).
+//     them is a cube of the DAG, each mean possible (integrity_colours.cpp).
 #pragma once
 
 #include <cstdint>
