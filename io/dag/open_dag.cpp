@@ -1,24 +1,13 @@
 #include "io/dag/open_dag.h"
 
-#include <cstring>
-
 #include "io/dag/graph/select.h"
 #include "io/dag/pack/unpack.h"
-#include "streaming/error.h"
 #include "streaming/process/executor.h"
 
 namespace svdag {
 
 bool begins_as_dag(const std::string& path) {
-  if (is_packed(path)) return true;
-  try {
-    unsigned char magic[sizeof kMagic];
-    const File file = File::open_read(path);
-    return file.read_some_at(0, std::as_writable_bytes(std::span(magic))) == sizeof magic &&
-           std::memcmp(magic, kMagic, sizeof magic) == 0;
-  } catch (const Error&) {
-    return false;  // opening it reports why
-  }
+  return begins_with(kMagic, path) || is_packed(path);
 }
 
 DagFile open_dag(const std::string& path, const Selection& selection, const WorkRoom* room) {

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstring>
 #include <utility>
+#include <vector>
 
 #include "streaming/file/system_call.h"
 
@@ -283,6 +284,16 @@ std::string folder_of(const std::string& path) {
   const size_t slash = path.find_last_of('/');
   if (slash == std::string::npos) return ".";
   return slash == 0 ? "/" : path.substr(0, slash);
+}
+
+bool begins_with(std::span<const unsigned char> magic, const std::string& path) {
+  try {
+    std::vector<std::byte> head(magic.size());
+    return File::open_read(path).read_some_at(0, head) == head.size() &&
+           std::ranges::equal(head, std::as_bytes(magic));
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 std::string base_name(const std::string& path) {

@@ -101,6 +101,9 @@ bool is_locked(const std::string& path);
 void sync_folder(const std::string& folder);
 // The folder part of `path`; "." if it has none.
 std::string folder_of(const std::string& path);
+// Whether the file begins with these bytes; false for one that cannot be read, as opening it
+// reports why.
+bool begins_with(std::span<const unsigned char> magic, const std::string& path);
 // What is after the last slash of `path`.
 std::string base_name(const std::string& path);
 // True if `path` exists, after following links. NFS clients cache missing names for a while: a

@@ -1,7 +1,5 @@
 #include <algorithm>
-#include <array>
 #include <cstdio>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "builder/commands/commands.h"
@@ -23,13 +21,6 @@ namespace svdag {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-bool begins_with(const unsigned char (&magic)[8], const std::string& path) {
-  const File file = File::open_read(path);
-  std::array<std::byte, sizeof magic> head{};
-  file.read_some_at(0, head);
-  return std::memcmp(head.data(), magic, sizeof magic) == 0;
-}
 
 // "0 .. 12": first and last voxel on an axis.
 std::string first_and_last(const VoxelBox& box, int axis) {

@@ -304,14 +304,7 @@ class Unpacker {
 }  // namespace
 
 bool is_packed(const std::string& path) {
-  try {
-    unsigned char magic[sizeof kPackedMagic];
-    const File file = File::open_read(path);
-    return file.read_some_at(0, std::as_writable_bytes(std::span(magic))) == sizeof magic &&
-           std::memcmp(magic, kPackedMagic, sizeof magic) == 0;
-  } catch (const Error&) {
-    return false;  // opening it reports why
-  }
+  return begins_with(kPackedMagic, path);
 }
 
 namespace {
