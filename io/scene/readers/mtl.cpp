@@ -238,10 +238,11 @@ std::optional<Omission> unread_mtl(const File& obj, std::string_view name,
   const std::filesystem::path folder = std::filesystem::path(obj.path()).parent_path();
   std::optional<Omission> unread;
   for (const std::string& path : named_files(folder, name)) {
-    if (!is_file(path))
+    if (!is_file(path)) {
       unread = Omission::kMissingMaterials;
-    else if (std::ranges::find(materials.files, path) == materials.files.end())
+    } else if (std::ranges::find(materials.files, path) == materials.files.end()) {
       return Omission::kMaterialFiles;
+    }
   }
   return unread;
 }

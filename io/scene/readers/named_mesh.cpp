@@ -106,9 +106,10 @@ class NamedMeshReceiver {
     paint_ = Paint();
     if (named.image > 0) {
       Image& image = images_[named.image - 1];
-      const auto bytes = [&](MemoryBudget::Reservation*) {
+      const auto bytes = [&](MemoryBudget::Reservation* memory) {
         if (image.bytes.empty()) fail_input(image.name, "this texture is not in the file");
-        return image.bytes;
+        *memory = std::move(image.memory);
+        return std::move(image.bytes);
       };
       paint_.image = options_.paints->image(image.name, 0, bytes);
       image.bytes = {};

@@ -165,7 +165,7 @@ class ObjReader {
     } else if (statement == "vt") {
       if (is_textured_) read_texture_coordinate();
     } else if (statement == "mtllib") {
-      if (options_.alpha == nullptr) return;
+      if (options_.images == nullptr && options_.alpha == nullptr) return;
       if (const auto unread = unread_mtl(file_, scanner_.rest_of_line(), materials_))
         left_out_.add(*unread);
     } else {

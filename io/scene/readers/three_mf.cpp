@@ -158,8 +158,8 @@ class ThreeMfSender {
   }
 
   void send_paint(const std::string& part, const ThreeMfModel& model, const ThreeMfPaint& paint) {
-    const auto image = model.images.find(paint.texture);
     if (paint.texture == 0) return out_.paint({});
+    const auto image = model.images.find(paint.texture);
     if (image == model.images.end())
       fail_input(where(part), "has no texture " + std::to_string(paint.texture));
     NamedPaint use = image->second.use;
@@ -170,7 +170,7 @@ class ThreeMfSender {
     out_.paint(use);
   }
 
-  // Without bytes, if there is no such part.
+  // A part that the archive lacks is sent as an image of 0 bytes.
   void send_image(const std::string& name) {
     std::string bytes;
     archive_.unpack(name, [&](std::string_view piece, bool) { bytes += piece; });
