@@ -26,8 +26,7 @@ class AtomicFile {
  public:
   // Throws Error (kOutput) if `target` is too long a name or must not be replaced: a folder, a
   // device, a pipe, a socket, a link to one, a loop of links, or the name of a descriptor
-  // (/dev/stdout). Error
-  // (kUsage) for "-". A caller with long work ahead calls this first.
+  // (/dev/stdout). Error (kUsage) for "-". A caller with long work ahead calls this first.
   // With `keep_existing` an existing target is an Error (kUsage), too.
   static void check(const std::string& target, bool keep_existing = false);
 

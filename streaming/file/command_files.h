@@ -2,10 +2,9 @@
 // output.
 //
 // Inputs are compared as files: "a", "./a" and a link to it are one. A file that does not exist yet
-// is identified by its folder and its last path component. Outputs are compared as names,
-// through symbolic links (output_target): a new file is renamed to the name and replaces a hard
-// link there. All inputs are added before the first
-// output. No file is opened.
+// is identified by its folder and its last path component. Outputs are compared as names, through
+// symbolic links (output_target): a new file is renamed to the name and replaces a hard link there.
+// All inputs are added before the first output. No file is opened.
 #pragma once
 
 #include <string>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+
 #include "io/colour.h"
 #include "verify/trace/kernel/traverse.h"
 #include "verify/trace/kernel/workload.h"
