@@ -19,8 +19,8 @@ step "check the file: checksums, pointers, order, minimality"
 "$programs"/svdag-verify check "$folder"/atrium.svdag
 step "voxelize independently and compare: every brick at 1K"
 "$programs"/svdag-verify mesh "$folder"/atrium-1k.svdag "$folder"/atrium.glb
-step "the same for a sample of 20,000 bricks at 16K"
-"$programs"/svdag-verify mesh --sample 20000 "$folder"/atrium.svdag "$folder"/atrium.glb
+step "the same for a sample of 100,000 bricks at 16K"
+"$programs"/svdag-verify mesh --sample 100000 "$folder"/atrium.svdag "$folder"/atrium.glb
 step "render"
 "$programs"/svdag-verify render "$folder"/atrium.svdag -o "$folder"/atrium.png -q \
   --mode soft --camera=-10.5,2.2,1.8,6,3.4,-1.2,75 --light=2,7.5,0,0.5 --size 800x420

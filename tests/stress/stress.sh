@@ -38,7 +38,8 @@ properties() {  # 5000 inputs for each instead of 100
   release
   RC_PARAMS=max_success=${INPUTS:-5000} ctest --test-dir build/release --output-on-failure --no-tests=error \
     -R '^(streaming|io|help|scene|farm|generator|verify|stress)_test$'
-  SVDAG_LONG=1 build/release/tests/builder_test --gtest_filter='Layers.*:Solid.*:ColourPass.*' --gtest_brief=1
+  SVDAG_LONG=1 build/release/tests/builder_test --gtest_filter='Layers.*:Solid.*' --gtest_brief=1
+  SVDAG_LONG=1 build/release/tests/colour_test --gtest_filter='ColourPass.*' --gtest_brief=1
 }
 
 one_hash() {  # the same bytes with every compiler and flag
