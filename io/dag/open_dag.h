@@ -9,7 +9,7 @@
 
 namespace svdag {
 
-// Whether the file begins as a .svdag, packed or not. False for a file that cannot be read.
+// Whether the file begins as a .svdag, packed or not. Error (kBadInput) if it cannot be read.
 bool begins_as_dag(const std::string& path);
 
 // Opens a .svdag (DagFile::open), or a packed one, which is unpacked to a file without a name. A

@@ -287,13 +287,9 @@ std::string folder_of(const std::string& path) {
 }
 
 bool begins_with(std::span<const unsigned char> magic, const std::string& path) {
-  try {
-    std::vector<std::byte> head(magic.size());
-    return File::open_read(path).read_some_at(0, head) == head.size() &&
-           std::ranges::equal(head, std::as_bytes(magic));
-  } catch (const Error&) {
-    return false;
-  }
+  std::vector<std::byte> head(magic.size());
+  return File::open_read(path).read_some_at(0, head) == head.size() &&
+         std::ranges::equal(head, std::as_bytes(magic));
 }
 
 std::string base_name(const std::string& path) {

@@ -101,8 +101,7 @@ bool is_locked(const std::string& path);
 void sync_folder(const std::string& folder);
 // The folder part of `path`; "." if it has none.
 std::string folder_of(const std::string& path);
-// Whether the file begins with these bytes; false for one that cannot be read, as opening it
-// reports why.
+// Whether the file begins with these bytes. Error as File::open_read().
 bool begins_with(std::span<const unsigned char> magic, const std::string& path);
 // What is after the last slash of `path`.
 std::string base_name(const std::string& path);

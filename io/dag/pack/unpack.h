@@ -12,7 +12,7 @@
 
 namespace svdag {
 
-// Whether the file begins like a packed one. False for a file that cannot be read.
+// Whether the file begins like a packed one. Error (kBadInput) if it cannot be read.
 bool is_packed(const std::string& path);
 
 // The plain file; it has no name and is in room.folder. Error (kBadInput), which names the chunk,
