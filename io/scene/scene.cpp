@@ -155,15 +155,19 @@ void append_unmatched(const char* option, const char* subject,
   }
 }
 
+LinearImages::Detail detail_of(const SceneConfig& config) {
+  if (config.keep_images) return LinearImages::Detail::kKept;
+  return config.paint ? LinearImages::Detail::kWhole : LinearImages::Detail::kThumbnails;
+}
+
 }  // namespace
 
 Scene::Scene(SceneConfig config, MemoryBudget* budget, const SpillSpace* spill)
     : config_(std::move(config)),
       budget_(budget),
       spill_(spill),
-      images_(budget, config_.sandbox),
       alpha_(budget, config_.sandbox),
-      paints_(budget, config_.sandbox, config_.keep_images) {}
+      images_(budget, config_.sandbox, detail_of(config_)) {}
 
 const File& Scene::content_of(const File& packed) const {
   if (!is_gzip(packed)) return packed;
@@ -205,7 +209,7 @@ LeftOut Scene::read_pose(const PoseTime* time, std::string_view frame, const Nam
     double unit = 0;
     options.unit_metres = &unit;
     options.alpha = config_.cut_outs ? &alpha_ : nullptr;
-    options.paints = config_.paint ? &paints_ : nullptr;
+    options.paints = config_.paint ? &images_ : nullptr;
     if (time != nullptr && detect_format(file).read != read_gltf)
       fail_usage(path + (frame.empty() ? ": --time" : ": --frames") +
                  ": svdag follows only animations of glTF");
@@ -249,7 +253,6 @@ SceneCounts Scene::read(const TriangleSink& sink, MeshBox* box_alone) const {
   append_unmatched("--cutout", "no material of a glTF or OBJ file", names.cut_out, use.cut_out, use,
                    allowed, &counts.unmatched);
   counts.unread_images = images_.notes();
-  std::ranges::copy(paints_.notes(), std::back_inserter(counts.unread_images));
   return counts;
 }
 

@@ -11,7 +11,6 @@
 #include "io/dag/format.h"
 #include "io/scene/colours/linear_images.h"
 #include "io/scene/cutouts/alpha_images.h"
-#include "io/scene/decoders/image.h"
 #include "io/scene/frame_range.h"
 #include "io/scene/mesh/mesh_reader.h"
 #include "streaming/file/input_watch.h"
@@ -100,9 +99,8 @@ class Scene {
   MemoryBudget* budget_;
   const SpillSpace* spill_;
   mutable std::map<std::string, File> unpacked_;  // by path
-  mutable ImageMeans images_;
   mutable AlphaImages alpha_;
-  mutable LinearImages paints_;
+  mutable LinearImages images_;
 };
 
 }  // namespace svdag

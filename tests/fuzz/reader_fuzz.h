@@ -25,9 +25,8 @@ inline void fuzz_reading(MeshReader reader, const File& file, uint64_t limit, co
     options.time = time;
     AlphaImages alpha(&budget, false);
     options.alpha = &alpha;
-    ImageMeans means(&budget, false);
-    LinearImages images(&budget, false, false);
-    if (is_painted) options.images = &means;
+    LinearImages images(&budget, false, LinearImages::Detail::kWhole);
+    if (is_painted) options.images = &images;
     if (is_painted) options.paints = &images;
     read_meshes(reader, file, options, [](const TriangleBatch& batch) {
       const size_t triangles = batch.triangles.size();

@@ -90,6 +90,18 @@ LinearImage::LinearImage(int64_t width, int64_t height, const std::vector<uint8_
                                light16_of_code(texel[2]), kWhite16});
     }
   }
+  add_coarser_levels();
+}
+
+LinearImage::LinearImage(Level finest, MemoryBudget::Reservation memory)
+    : memory_(std::move(memory)),
+      has_holes_(std::ranges::any_of(finest.texels,
+                                     [](const Texel& texel) { return texel[3] < kWhite16; })) {
+  levels_.push_back(std::move(finest));
+  add_coarser_levels();
+}
+
+void LinearImage::add_coarser_levels() {
   while (levels_.back().width > 1 || levels_.back().height > 1)
     levels_.push_back(coarser(levels_.back()));
 }

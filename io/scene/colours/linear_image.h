@@ -56,6 +56,7 @@ class LinearImage {
   // below `threshold` are cut out.
   LinearImage(int64_t width, int64_t height, const std::vector<uint8_t>& rgba, double threshold,
               MemoryBudget::Reservation memory = {});
+  explicit LinearImage(Level finest, MemoryBudget::Reservation memory = {});
 
   int64_t width() const { return levels_[0].width; }
   int64_t height() const { return levels_[0].height; }
@@ -69,6 +70,8 @@ class LinearImage {
   static uint64_t bytes(uint64_t texels) { return 3 * sizeof(Texel) / 2 * texels + 512; }
 
  private:
+  void add_coarser_levels();
+
   MemoryBudget::Reservation memory_;
   std::vector<Level> levels_;  // the last has one texel
   bool has_holes_ = false;

@@ -19,17 +19,27 @@ class LinearImages {
   // Returns the bytes of an image, reserved in *memory.
   using Read = std::function<std::vector<std::byte>(MemoryBudget::Reservation* memory)>;
 
-  // `keep`: with LinearImage::encoded().
-  LinearImages(MemoryBudget* budget, bool sandbox, bool keep)
-      : budget_(budget), sandbox_(sandbox), keep_(keep) {}
+  enum class Detail {
+    kThumbnails,  // of at most kThumbnailSide texels a side: enough for means
+    kWhole,
+    kKept  // whole, with LinearImage::encoded()
+  };
+
+  LinearImages(MemoryBudget* budget, bool sandbox, Detail detail)
+      : budget_(budget), sandbox_(sandbox), detail_(detail) {}
 
   // The image `name`, which is unique to it, with the texels below `threshold` cut out; read() is
   // called the first time. Null, and a note, for one that cannot be read: the triangles have the
   // colour of their material without it.
-  // `mask`: another image, whose alpha at the centre of a texel counts instead of the texel's.
+  // `mask`: another image, whose alpha at the centre of a texel counts instead of the texel's,
+  // except in thumbnails.
   std::shared_ptr<const LinearImage> image(const std::string& name, double threshold,
                                            const Read& read,
                                            std::shared_ptr<const AlphaImage> mask = nullptr);
+  // Of an image file.
+  std::shared_ptr<const LinearImage> image_of_file(
+      const std::string& path, double threshold,
+      std::shared_ptr<const AlphaImage> mask = nullptr);
 
   MemoryBudget* budget() const { return budget_; }
   // "PATH: what is wrong", of each image that cannot be read and each note.
@@ -38,8 +48,13 @@ class LinearImages {
   void note(const std::string& text);
 
  private:
+  std::shared_ptr<const LinearImage> decode(const std::string& name, double threshold,
+                                            const Read& read,
+                                            const std::shared_ptr<const AlphaImage>& mask) const;
+
   MemoryBudget* budget_;
-  bool sandbox_, keep_;
+  bool sandbox_;
+  Detail detail_;
   using Key = std::tuple<std::string, double, std::shared_ptr<const AlphaImage>>;
   std::map<Key, std::shared_ptr<const LinearImage>> images_;
   std::vector<std::string> notes_;

@@ -48,26 +48,6 @@ ImageSize size_of(const ImageSource& source) {
   return size;
 }
 
-// `channels`: grey, grey and alpha, RGB, or RGB and alpha.
-LinearColour mean_of(std::span<const stbi_uc> texels, size_t channels, bool by_alpha) {
-  std::array<std::array<uint64_t, 256>, 3> weights{};  // [channel][code]: of all texels
-  uint64_t whole = 0;
-  for (size_t i = 0; i < texels.size(); i += channels) {
-    const uint64_t weight = by_alpha ? texels[i + channels - 1] : 1;
-    for (size_t c = 0; c < 3; ++c) weights[c][texels[i + (channels < 3 ? 0 : c)]] += weight;
-    whole += weight;
-  }
-  if (whole == 0) return mean_of(texels, channels, false);
-  LinearColour mean;
-  for (size_t c = 0; c < 3; ++c) {
-    unsigned __int128 sum = whole / 2;
-    for (size_t code = 0; code < 256; ++code)
-      sum += (unsigned __int128)(weights[c][code]) * light_units(light_of(double(code)));
-    mean.units[c] = uint64_t(sum / whole);
-  }
-  return mean;
-}
-
 struct Texels {
   std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> owned;
   ImageSize size;
@@ -135,20 +115,6 @@ CheckedImage check_image(const ImageSource& source, MemoryBudget* budget) {
 
 }  // namespace
 
-ImageMean mean_of_image(const ImageSource& source, MemoryBudget* budget) {
-  const CheckedImage image = check_image(source, budget);
-  const ImageMean mean = in_child<ImageMean>(source, image.limits, [&] {
-    const Texels texels = decode(source);
-    return ImageMean{mean_of(texels.all(), texels.channels, texels.channels % 2 == 0),
-                     mean_of(texels.all(), texels.channels, false)};
-  });
-  for (const LinearColour& one : {mean.visible, mean.all}) {
-    if (std::ranges::any_of(one.units, [](uint64_t units) { return units > kWhiteUnits; }))
-      fail_input(source.path, "its decoder sent an invalid block");
-  }
-  return mean;
-}
-
 namespace {
 
 // `convert` writes kBytes bytes for a texel of `channels` bytes.
@@ -181,6 +147,21 @@ uint8_t alpha_of(const stbi_uc* texel, size_t channels) {
   return channels % 2 == 0 ? texel[channels - 1] : uint8_t(255);
 }
 
+void put_colour(const stbi_uc* texel, size_t channels, uint8_t* out) {
+  for (size_t c = 0; c < 3; ++c) out[c] = texel[channels < 3 ? 0 : c];
+  out[3] = alpha_of(texel, channels);
+}
+
+ColourTexels texels_of(const ImageSource& source) {
+  const Texels decoded = decode(source);
+  ColourTexels texels{decoded.size.width, decoded.size.height,
+                      std::vector<uint8_t>(4 * size_t(decoded.size.texels()))};
+  const stbi_uc* texel = decoded.all().data();
+  for (size_t i = 0; i < texels.rgba.size(); i += 4, texel += decoded.channels)
+    put_colour(texel, decoded.channels, &texels.rgba[i]);
+  return texels;
+}
+
 }  // namespace
 
 AlphaTexels alpha_of_image(const ImageSource& source, MemoryBudget* budget, bool or_luminance) {
@@ -198,34 +179,36 @@ AlphaTexels alpha_of_image(const ImageSource& source, MemoryBudget* budget, bool
 ColourTexels colours_of_image(const ImageSource& source, MemoryBudget* budget) {
   const CheckedImage image = check_image(source, budget);
   return {image.size.width, image.size.height,
-          decoded_bytes<4>(source, image, [](const stbi_uc* texel, size_t channels, uint8_t* out) {
-            for (size_t c = 0; c < 3; ++c) out[c] = texel[channels < 3 ? 0 : c];
-            out[3] = alpha_of(texel, channels);
-          })};
+          decoded_bytes<4>(source, image, put_colour)};
 }
 
-std::optional<ImageMean> ImageMeans::mean(const std::string& name, const Read& read) {
-  const auto [known, is_new] = means_.try_emplace(name);
-  if (!is_new) return known->second;
-  try {
-    MemoryBudget::Reservation memory;
-    const std::vector<std::byte> bytes = read(&memory);
-    known->second = mean_of_image({bytes, name, sandbox_}, budget_);
-  } catch (const Error& error) {
-    if (error.code() != ExitCode::kBadInput) throw;
-    note(error.what());
-  }
-  return known->second;
-}
-
-void ImageMeans::note(const std::string& text) {
-  if (std::ranges::find(notes_, text) == notes_.end()) notes_.push_back(text);
-}
-
-std::optional<ImageMean> ImageMeans::mean_of_file(const std::string& path) {
-  return mean(path, [&](MemoryBudget::Reservation* memory) {
-    return bytes_of_image(File::open_read(path), budget_, memory);
-  });
+Thumbnail thumbnail_of_image(const ImageSource& source, MemoryBudget* budget,
+                             const std::function<Thumbnail(const ColourTexels&)>& reduce) {
+  const CheckedImage image = check_image(source, budget);
+  enum : uint64_t { kSize, kTexels };
+  Thumbnail thumbnail;
+  run_decoder(
+      image.limits, source.path, source.sandbox,
+      [&](DecoderOutput& out) {
+        const Thumbnail reduced = reduce(texels_of(source));
+        out.send_one(kSize, ImageSize{reduced.width, reduced.height});
+        out.send(kTexels, std::span(reduced.texels));
+      },
+      [&](const DecoderMessage& message) {
+        if (message.kind() == kSize) {
+          const auto size = message.record<ImageSize>();
+          thumbnail = {size.width, size.height, {}};
+          return;
+        }
+        for (const auto& texel : message.records<std::array<uint16_t, 4>>())
+          thumbnail.texels.push_back(texel);
+        if (thumbnail.texels.size() > kThumbnailSide * kThumbnailSide) message.fail();
+      });
+  const auto is_side = [](int n) { return n > 0 && n <= kThumbnailSide; };
+  if (!is_side(thumbnail.width) || !is_side(thumbnail.height) ||
+      thumbnail.texels.size() != size_t(thumbnail.width * thumbnail.height))
+    fail_input(source.path, "its decoder sent an invalid block");
+  return thumbnail;
 }
 
 std::vector<std::byte> bytes_of_image(const File& file, MemoryBudget* budget,

@@ -22,6 +22,7 @@
 #include "io/scene/gltf/gltf_elements.h"
 #include "io/scene/gltf/gltf_images.h"
 #include "io/scene/gltf/gltf_kept.h"
+#include "io/scene/gltf/gltf_mean_colours.h"
 #include "io/scene/gltf/gltf_nodes.h"
 #include "io/scene/gltf/gltf_paint.h"
 #include "io/scene/gltf/gltf_pose.h"
@@ -42,6 +43,7 @@ class GltfReader {
         draco_(document_, &buffers_, options),
         kept_(options.budget),
         pose_(document_, &buffers_, options.budget),
+        mean_colours_(document_, &buffers_),
         out_(*out) {
     if (options.time != nullptr)
       left_out_.add(Omission::kChannels, pose_at(*options.time, &document_, &buffers_));
@@ -106,7 +108,7 @@ class GltfReader {
       const GltfPaint* const paint = paint_of(primitive, material, cut);
       if (paint == nullptr && options_.images != nullptr && attributes.has("COLOR_0"))
         left_out_.add(Omission::kVertexColours);
-      out_.material(name_of_material, colour_of(material));
+      out_.material(name_of_material, colour_of(primitive, material));
       InstanceStream instances(node, world, &buffers_);
       if (cut != nullptr || paint != nullptr) {
         draw_textured(cut, paint, node, value, mode, world, &instances);
@@ -172,9 +174,12 @@ class GltfReader {
   }
 
   // The one colour of a primitive, if it is wanted.
-  std::optional<Colour> colour_of(const std::optional<JsonObject>& material) {
+  std::optional<Colour> colour_of(const JsonObject& primitive,
+                                  const std::optional<JsonObject>& material) {
     if (options_.images == nullptr || !material) return {};
-    return options_.paints != nullptr ? factor_colour(*material) : mean_colour(*material);
+    return options_.paints != nullptr
+               ? factor_colour(*material)
+               : mean_colours_.of(primitive.whole_number("material"), options_.images);
   }
 
   // Of a mesh that is baked whole.
@@ -185,21 +190,6 @@ class GltfReader {
     } else if (alpha == "MASK" || alpha == "BLEND") {
       left_out_.add(Omission::kCutOuts);
     }
-  }
-
-  // The base colour of the material, times the mean of its texture.
-  std::optional<Colour> mean_colour(const JsonObject& material) {
-    if (!material.has("pbrMetallicRoughness")) return {};
-    const JsonObject pbr = material.object("pbrMetallicRoughness");
-    std::optional<ImageMean> mean;
-    if (pbr.has("baseColorTexture"))
-      mean = mean_of_texture(document_, pbr.object("baseColorTexture"), &buffers_, options_.images);
-    std::array<double, 4> factor{1, 1, 1, 1};
-    if (!pbr.numbers("baseColorFactor", factor) && !mean) return {};
-    const std::string& alpha = material.text("alphaMode");  // absent: OPAQUE, which ignores alpha
-    const bool opaque = alpha.empty() || alpha == "OPAQUE";
-    const LinearColour texels = !mean ? LinearColour() : opaque ? mean->all : mean->visible;
-    return texels.times({factor[0], factor[1], factor[2]});
   }
 
   // `included`: whether the node is.
@@ -441,6 +431,7 @@ class GltfReader {
   std::map<std::pair<uint64_t, double>, GltfPaint> paints_;  // by material and threshold
   std::map<uint64_t, GltfPaint> plain_paints_;               // by material, without its texture
   GltfPaint white_;
+  GltfMeanColours mean_colours_;
   // By material: with and without its texture; none: it is whole.
   std::map<uint64_t, std::array<std::optional<GltfCutOut>, 2>> cuts_;
   MeshWriter& out_;

@@ -41,12 +41,4 @@ std::vector<std::byte> read_image(const GltfDocument& document, const GltfImage&
   return decode_data_uri(uri, path);
 }
 
-std::optional<ImageMean> mean_of_texture(const GltfDocument& document, const JsonObject& info,
-                                         GltfBuffers* buffers, ImageMeans* means) {
-  const GltfImage image = image_of_texture(document, info.whole_number("index"));
-  return means->mean(image.name, [&](MemoryBudget::Reservation* memory) {
-    return read_image(document, image, buffers, means->budget(), memory);
-  });
-}
-
 }  // namespace svdag

@@ -26,9 +26,4 @@ std::vector<std::byte> read_image(const GltfDocument& document, const GltfImage&
                                   GltfBuffers* buffers, MemoryBudget* budget,
                                   MemoryBudget::Reservation* memory);
 
-// The mean of the texture that `info` (as baseColorTexture) names; none, and a note of `means`, if
-// it cannot be read.
-std::optional<ImageMean> mean_of_texture(const GltfDocument& document, const JsonObject& info,
-                                         GltfBuffers* buffers, ImageMeans* means);
-
 }  // namespace svdag

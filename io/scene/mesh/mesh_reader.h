@@ -69,7 +69,6 @@ inline std::string_view part_name(const TriangleBatch& batch, PartKind kind) {
 using TriangleSink = std::function<void(const TriangleBatch&)>;
 
 class AlphaImages;
-class ImageMeans;
 class LinearImages;
 class SpillFile;
 
@@ -121,8 +120,9 @@ struct ReadOptions {
   MeshBox* box_alone = nullptr;
   // Third-party decoders run in a limited child process (streaming/process/limited_child.h).
   bool sandbox = false;
-  // Not null: the colours of materials are wanted, though they need further files.
-  ImageMeans* images = nullptr;
+  // Not null: the colours of materials are wanted, though they need further files; perhaps only
+  // means, for which small images are enough.
+  LinearImages* images = nullptr;
   bool allow_outside = false;      // read materials and textures outside the folder of an .obj file
   bool hidden = false;             // read nodes that the file hides
   const PoseTime* time = nullptr;  // null: the pose at rest
@@ -130,7 +130,7 @@ struct ReadOptions {
   double* unit_metres = nullptr;
   // Not null: what is transparent of materials is cut out. It must outlive the triangles' CutOut.
   AlphaImages* alpha = nullptr;
-  // Not null: colours of points are wanted, with `images`. It must outlive the triangles' Paint.
+  // Not null: colours of points are wanted; it is `images`. It must outlive the triangles' Paint.
   LinearImages* paints = nullptr;
 
   // Whether the object `name`, which has no material, is selected.

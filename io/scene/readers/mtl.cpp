@@ -6,6 +6,7 @@
 #include <iterator>
 #include <set>
 
+#include "io/scene/colours/used_mean.h"
 #include "streaming/file/file_folder.h"
 #include "streaming/process/interrupt.h"
 
@@ -269,15 +270,18 @@ std::vector<std::string> mtl_files(const File& obj, const MtlOptions& options) {
   return paths;
 }
 
-std::optional<Colour> colour_of(const MtlMaterial& material, ImageMeans* images) {
+std::optional<Colour> colour_of(const MtlMaterial& material, LinearImages* images) {
   if (!material.texture || material.texture->is_outside) return material.diffuse;
-  const std::optional<ImageMean> mean = images->mean_of_file(material.texture->path);
+  constexpr double kLeastAlpha = 1;  // what is transparent has no say
+  const auto image = images->image_of_file(material.texture->path, kLeastAlpha);
+  if (!image) return material.diffuse;
+  const std::optional<LinearColour> mean = UsedMean({image}).mean();
   if (!mean) return material.diffuse;
   const Colour kd = material.diffuse.value_or(Colour{255, 255, 255});
   const auto factor = [](uint8_t code) {
     return double(light_units(light_of(code))) / double(kWhiteUnits);
   };
-  return mean->visible.times({factor(kd.r), factor(kd.g), factor(kd.b)});
+  return mean->times({factor(kd.r), factor(kd.g), factor(kd.b)});
 }
 
 }  // namespace svdag

@@ -10,7 +10,7 @@
 
 #include "io/colour.h"
 #include "io/scene/cutouts/cut_out.h"
-#include "io/scene/decoders/image.h"
+#include "io/scene/colours/linear_images.h"
 #include "io/scene/mesh/left_out.h"
 #include "io/scene/mesh/name_filter.h"
 #include "streaming/file/file.h"
@@ -49,7 +49,7 @@ struct MtlMaterials {
 struct MtlOptions {
   MemoryBudget* budget = nullptr;
   bool allow_outside = false;    // also .mtl files and textures outside the folder of the .obj file
-  ImageMeans* images = nullptr;  // if given, it notes what was left out
+  LinearImages* images = nullptr;  // if given, it notes what was left out
   // Of mtl_files(): the textures that colour, and those that cut materials out, unless null.
   bool colours = true;
   const NameFilter* cut_outs = nullptr;
@@ -73,6 +73,6 @@ std::vector<std::string> mtl_files(const File& obj, const MtlOptions& options);
 
 // Kd times the mean of map_Kd; nothing if the material has neither, or no texture that can be read
 // and no Kd.
-std::optional<Colour> colour_of(const MtlMaterial& material, ImageMeans* images);
+std::optional<Colour> colour_of(const MtlMaterial& material, LinearImages* images);
 
 }  // namespace svdag

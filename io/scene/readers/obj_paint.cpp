@@ -22,10 +22,7 @@ std::optional<ObjPaint> paint_of(const MtlMaterial& material, const ObjCutOut* c
     threshold = cut->cut.threshold;
     if (cut->use != texture) mask = cut->cut.image;
   }
-  const auto read = [&](MemoryBudget::Reservation* memory) {
-    return bytes_of_image(File::open_read(texture->path), images->budget(), memory);
-  };
-  ObjPaint result{{images->image(texture->path, threshold, read, mask)}, texture};
+  ObjPaint result{{images->image_of_file(texture->path, threshold, mask)}, texture};
   if (!result.paint.image) return {};
   if (!texture->unknown.empty())
     images->note(texture->path + ": the option " + texture->unknown + " is not followed");

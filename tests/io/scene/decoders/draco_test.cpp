@@ -199,13 +199,12 @@ TEST_P(DracoMethods, TextureCoordinatesAndColoursOfVerticesAreDecodedIfTheyAreWa
   const TempFolder folder;
   const auto read = [&](bool coloured, const TriangleSink& sink) {
     MemoryBudget budget;
-    ImageMeans means(&budget, false);
-    LinearImages images(&budget, false, false);
+    LinearImages images(&budget, false, LinearImages::Detail::kWhole);
     AlphaImages alpha(&budget, false);
     const NameFilter names;
     ReadOptions options{&names, false, &budget};
     options.alpha = &alpha;
-    if (coloured) options.images = &means;
+    if (coloured) options.images = &images;
     if (coloured) options.paints = &images;
     const File file = File::open_read(folder.write("a.glb", gltf.glb()));
     return read_meshes(read_gltf, file, options, sink);

@@ -33,7 +33,8 @@ class GltfBuilder {
 
   template <class T>
   int accessor(const std::vector<T>& values, const char* type) {
-    const size_t width = type == std::string("SCALAR") ? 1 : type == std::string("VEC3") ? 3 : 4;
+    const std::string name = type;
+    const size_t width = name == "SCALAR" ? 1 : name == "VEC2" ? 2 : name == "VEC3" ? 3 : 4;
     return append("accessors", {{"bufferView", view(values)},
                                 {"componentType", component_type<T>()},
                                 {"count", values.size() / width},

@@ -42,14 +42,17 @@ class GltfImages : public testing::Test {
     SceneConfig config;
     config.paths = {folder_.write("s.glb", gltf_.glb())};
     config.colours = wanted;
-    const Scene scene(config, &budget_);
-    scene.bounds();  // a second pass takes the same means
     std::optional<Colour> colour;
-    notes_ = scene.stream([&](const TriangleBatch& batch) { colour = batch.colour; }).unread_images;
-    files_.clear();
-    scene.visit_files([&](const File& file) {
-      files_.push_back(std::filesystem::path(file.path()).filename().string());
-    });
+    {
+      const Scene scene(config, &budget_);
+      scene.bounds();  // a second pass takes the same images
+      notes_ =
+          scene.stream([&](const TriangleBatch& batch) { colour = batch.colour; }).unread_images;
+      files_.clear();
+      scene.visit_files([&](const File& file) {
+        files_.push_back(std::filesystem::path(file.path()).filename().string());
+      });
+    }
     EXPECT_EQ(budget_.used(), 0u);
     return colour;
   }
@@ -111,6 +114,35 @@ TEST_F(GltfImages, TheFactorIsLinearLight) {
   EXPECT_EQ(colour(), (Colour{137, 188, 188}));
   pbr().erase("baseColorTexture");
   EXPECT_EQ(colour(), (Colour{188, 255, 188}));
+}
+
+// The left half of the image is red, the right one green.
+TEST_F(GltfImages, OnlyThePartOfTheImageThatTrianglesUseCounts) {
+  std::string texels;
+  for (int i = 0; i < 64; ++i) texels += i % 8 < 4 ? rgb(255, 0, 0) : rgb(0, 255, 0);
+  folder_.write("halves.png", png(8, 8, PngKind::kRgb, texels));
+  image({{"uri", "halves.png"}});
+  EXPECT_EQ(colour(), (Colour{188, 188, 0}));
+  const int left = gltf_.accessor(std::vector<float>{0.1f, 0.1f, 0.4f, 0.1f, 0.1f, 0.5f}, "VEC2");
+  const int right = gltf_.accessor(std::vector<float>{0.9f, 0, 0.6f, 0, 0.6f, 0.5f}, "VEC2");
+  json& primitive = gltf_.json["meshes"][0]["primitives"][0];
+  primitive["attributes"]["TEXCOORD_0"] = left;
+  EXPECT_EQ(colour(), (Colour{255, 0, 0}));
+  // What other primitives of the material use counts as well.
+  json other = primitive;
+  other["attributes"]["TEXCOORD_0"] = right;
+  gltf_.json["meshes"][0]["primitives"].push_back(other);
+  const std::optional<Colour> both = colour();
+  EXPECT_GT(both->r, 160);
+  EXPECT_GT(both->g, 160);
+  // A list of another length is no error: the triangles do not need it.
+  gltf_.json["meshes"][0]["primitives"].erase(1);
+  gltf_.json["meshes"][0]["primitives"][0]["indices"] =
+      gltf_.accessor(std::vector<uint16_t>{0, 1, 2}, "SCALAR");
+  gltf_.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] =
+      gltf_.accessor(std::vector<float>{0.9f, 0}, "VEC2");
+  EXPECT_EQ(colour(), (Colour{188, 188, 0}));
+  EXPECT_EQ(notes_.size(), 1u);
 }
 
 TEST_F(GltfImages, AMaterialWithoutFactorAndTextureHasNoColour) {

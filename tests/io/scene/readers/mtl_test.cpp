@@ -12,7 +12,7 @@ namespace {
 
 class Mtl : public testing::Test {
  protected:
-  Mtl() : images_(&budget_, false) {
+  Mtl() : images_(&budget_, false, LinearImages::Detail::kThumbnails) {
     std::filesystem::create_directory(folder_.file("maps"));
     folder_.write("maps/red wood.png", one_texel(255, 0, 0));
     folder_.write("grey.png", one_texel(188, 188, 188));
@@ -33,7 +33,7 @@ class Mtl : public testing::Test {
   TempFolder folder_;
   MemoryBudget budget_;
   bool allow_outside_ = false;
-  ImageMeans images_;
+  LinearImages images_;
 };
 
 TEST_F(Mtl, WithoutATextureTheColourIsKd) {
