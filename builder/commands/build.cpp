@@ -79,6 +79,8 @@ Json colours_json(const std::optional<ColourReport>& colours) {
           {"error", double(header.colour_error) / kColourErrorUnit},
           {"hash", to_hex(header.colour_hash)},
           {"texels_per_cube", colours->texels_per_cube},
+          {"pairs", colours->pairs},
+          {"walk_seconds", colours->walk_seconds},
           {"seconds", colours->seconds},
           {"resumed", colours->resumed}};
 }

@@ -12,6 +12,7 @@ $ svdag-verify colours a.svdag cut.glb
 | cubes       36,069 covered, 10,000 drawn, 9,981 judged
 |   left out  19 that triangles only touch, 0 without a triangle or a colour
 | difference  mean 0.000, 99.9 % 0, largest 0 steps of sRGB
+|   at seams  mean 0.000, 111 cubes
 | allowed     mean 1.43 steps
 | wrong       0 cubes
 | ok: no drawn cube has a colour that its triangles do not have
@@ -33,6 +34,7 @@ $ svdag-verify colours a.svdag green.obj
 | cubes       64 covered, 64 drawn, 64 judged
 |   left out  0 that triangles only touch, 0 without a triangle or a colour
 | difference  mean 0.016, 99.9 % 1, largest 1 steps of sRGB
+|   at seams  mean 0.000, 0 cubes
 | allowed     mean 1.07 steps
 | wrong       0 cubes
 | ok: no drawn cube has a colour that its triangles do not have
@@ -44,6 +46,7 @@ $ svdag-verify colours a.svdag blue.obj --sample 6
 | cubes       64 covered, 6 drawn, 6 judged
 |   left out  0 that triangles only touch, 0 without a triangle or a colour
 | difference  mean 45.278, 99.9 % 198, largest 198 steps of sRGB
+|   at seams  mean 0.000, 0 cubes
 | allowed     mean 1.06 steps
 | wrong       6 cubes
 |   wrong     cube (7, 4, 0), #b0c600, the scene has #b000c6, 197.2 steps beyond what is allowed

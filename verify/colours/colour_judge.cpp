@@ -177,13 +177,17 @@ class ColourJudge {
       return;
     }
     ++out_.judged;
+    out_.at_seams += estimate.is_at_seam();
     WrongColour w{cube, stored, {}, {}, 0};
     for (size_t c = 0; c < 3; ++c) {
       const double mean = estimate.mean(c), tolerance = estimate.tolerance(c);
       check(c, mean, std::max(0.0, mean - tolerance), std::min(1.0, mean + tolerance),
             estimate.decoder_error(), &w);
-      if (stored != kNoColour)
-        differences_.push_back(std::abs(channel_of(stored, c) - std::round(w.expected[c])));
+      if (stored != kNoColour) {
+        const double difference = std::abs(channel_of(stored, c) - std::round(w.expected[c]));
+        differences_.push_back(difference);
+        if (estimate.is_at_seam()) out_.mean_at_seams += difference / 3;
+      }
       allowed_ += w.allowed[c];
     }
     if (w.excess <= 0) return;
@@ -195,6 +199,7 @@ class ColourJudge {
     std::ranges::stable_sort(out_.worst, std::greater(), &WrongColour::excess);
     if (out_.worst.size() > out_.kShown) out_.worst.resize(out_.kShown);
     if (out_.judged > 0) out_.mean_allowed = allowed_ / double(3 * out_.judged);
+    if (out_.at_seams > 0) out_.mean_at_seams /= double(out_.at_seams);
     if (differences_.empty()) return out_;
     std::ranges::sort(differences_);
     for (const double d : differences_) out_.mean += d / double(differences_.size());

@@ -44,6 +44,8 @@ struct ColourComparison {
   uint64_t wrong = 0;
   // Of the judged cubes' channels, in steps of sRGB, of colours of 8 bits; 0 without any.
   double mean = 0, permille_999 = 0, largest = 0;
+  uint64_t at_seams = 0;           // judged: where parts of textures meet that are not neighbours
+  double mean_at_seams = 0;        // of these, as `mean`
   double mean_allowed = 0;         // mean of the largest difference that is not wrong
   std::vector<WrongColour> worst;  // at most kShown, the largest excess first
 

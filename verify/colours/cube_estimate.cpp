@@ -52,30 +52,48 @@ class PlacedTriangle {
     return t_.paint->nearest && span >= 2 ? 0.5 : 0;
   }
 
+  // Of a polygon of the plane in the triangle, in texels; the triangle has a texture.
+  TexturePolygon places_of(const Polygon& part) const {
+    TexturePolygon places;
+    for (const Point& p : part) places.add(place(weights(p)));
+    return places;
+  }
+
   // The colour at a point of the plane near the triangle, with its texture moved.
   WeightedColour at(const Point& p, double du, double dv) const {
-    const int i = (axis_ + 1) % 3, j = (axis_ + 2) % 3;
-    const Point d = p - v_[0];
-    const double n = normal_[axis_];
-    const double l1 = std::clamp((d[i] * e2_[j] - d[j] * e2_[i]) / n, 0.0, 1.0);
-    const double l2 = std::clamp((e1_[i] * d[j] - e1_[j] * d[i]) / n, 0.0, 1.0 - l1);
-    const auto mix = [&](double a, double b, double c) {
-      return a * (1 - l1 - l2) + b * l1 + c * l2;
-    };
+    const Weights w = weights(p);
     if (t_.paint == nullptr) return {1, t_.colour[0], t_.colour[1], t_.colour[2]};
     WeightedColour colour{1, 1, 1, 1};
     if (t_.texture != nullptr) {
-      const TexturePoint &a = t_.points[0], &b = t_.points[1], &c = t_.points[2];
-      colour = t_.texture->at(*t_.paint, mix(a.u, b.u, c.u) + du, mix(a.v, b.v, c.v) + dv);
+      const TexturePoint at = place(w);
+      colour = t_.texture->at(*t_.paint, at.u + du, at.v + dv);
     }
     for (size_t c = 0; c < 3; ++c)
       colour[c + 1] *= t_.paint->factor[c] / 65535 *
-                       mix(double(t_.corner_colours[0][c]), double(t_.corner_colours[1][c]),
-                           double(t_.corner_colours[2][c]));
+                       w.mix(double(t_.corner_colours[0][c]), double(t_.corner_colours[1][c]),
+                             double(t_.corner_colours[2][c]));
     return colour;
   }
 
  private:
+  // Of the corners, at a point.
+  struct Weights {
+    double second, third;
+    double mix(double a, double b, double c) const {
+      return a * (1 - second - third) + b * second + c * third;
+    }
+  };
+  Weights weights(const Point& p) const {
+    const int i = (axis_ + 1) % 3, j = (axis_ + 2) % 3;
+    const Point d = p - v_[0];
+    const double n = normal_[axis_];
+    const double second = std::clamp((d[i] * e2_[j] - d[j] * e2_[i]) / n, 0.0, 1.0);
+    return {second, std::clamp((e1_[i] * d[j] - e1_[j] * d[i]) / n, 0.0, 1.0 - second)};
+  }
+  TexturePoint place(const Weights& w) const {
+    const TexturePoint &a = t_.points[0], &b = t_.points[1], &c = t_.points[2];
+    return {w.mix(a.u, b.u, c.u), w.mix(a.v, b.v, c.v)};
+  }
   // The larger singular value of the map from the plane to texels.
   double stretch() const {
     const double x1 = length_of(e1_), h = length_of(normal_) / x1;
@@ -211,6 +229,7 @@ void CubeEstimate::add(const JudgedTriangle& t, const LatticePoint& corner, int6
     }
   }
   if (!(sample.area() > 0)) return;
+  note_place(t.texture, t.texture != nullptr ? placed.places_of(part) : TexturePolygon());
   const bool is_summed = t.texture == nullptr || (t.paint->nearest && reach == 0);
   const Moments one = sample.variance(is_summed);
   const double share = sample.area() * sample.area();
@@ -223,6 +242,26 @@ void CubeEstimate::add(const JudgedTriangle& t, const LatticePoint& corner, int6
     sum_[c] += sample.sum()[c];
     for (size_t d = 0; d < moved.size(); ++d) moved_[d][c] += moved[d][c];
   }
+}
+
+void CubeEstimate::note_place(const JudgedTexture* texture, const TexturePolygon& part) {
+  if (places_.count++ == 0) places_.texture = texture;
+  if (texture != places_.texture) places_.is_mixed = true;
+  if (texture == nullptr || places_.is_mixed) return;
+  const TextureBox box = bounds_of(part);
+  TextureBox& all = places_.box;
+  all = places_.count == 1
+            ? box
+            : TextureBox{{std::min(all.low.u, box.low.u), std::min(all.low.v, box.low.v)},
+                         {std::max(all.high.u, box.high.u), std::max(all.high.v, box.high.v)}};
+  places_.sides.u += box.high.u - box.low.u;
+  places_.sides.v += box.high.v - box.low.v;
+}
+
+bool CubeEstimate::is_at_seam() const {
+  constexpr double kGap = 1;  // texel
+  const auto& [texture, box, sides, is_mixed, count] = places_;
+  return is_mixed || box.high.u - box.low.u > sides.u + kGap || box.high.v - box.low.v > sides.v + kGap;
 }
 
 double CubeEstimate::tolerance(size_t channel) const {

@@ -57,6 +57,9 @@ class CubeEstimate {
   bool has_mean() const { return sum_[0] > kMinArea; }
   // Linear light of a channel, 0 .. 2; has_mean().
   double mean(size_t channel) const { return sum_[channel + 1] / sum_[0]; }
+  // Whether parts of textures that are not neighbours meet here: different images, or a gap of more
+  // than a texel between the places of the triangles' parts.
+  bool is_at_seam() const;
   // Steps of sRGB that the decoders of the textures may differ by.
   double decoder_error() const { return decoder_error_; }
   // Within which of the mean a right colour is.
@@ -69,6 +72,15 @@ class CubeEstimate {
     std::array<double, 3> mixed{}, channel{};
   };
   class PolygonSample;
+  // Where the parts of the triangles are in their textures.
+  struct Places {
+    const JudgedTexture* texture = nullptr;  // of the first
+    TextureBox box{};                        // of all
+    TexturePoint sides{0, 0};                // of the boxes of all, in sum
+    bool is_mixed = false;                   // other textures, or none, were met
+    uint64_t count = 0;
+  };
+  void note_place(const JudgedTexture* texture, const TexturePolygon& part);
 
   bool is_touched_ = false;
   double decoder_error_ = 0;
@@ -76,6 +88,7 @@ class CubeEstimate {
   std::array<double, 3> low_{1, 1, 1}, high_{};  // of opaque points
   std::array<WeightedColour, 4> moved_{};        // of the four means of moved points
   Moments variance_;                             // of sum_
+  Places places_;
 };
 
 }  // namespace svdag

@@ -55,6 +55,8 @@ Verdict verdict_of(const DagFile& file, const SceneFacts& facts, const ColourCom
   verdict.add("difference_mean", "difference", rounded(c.mean, "mean %.3f"));
   verdict.also("difference_999", rounded(c.permille_999, "99.9 %% %g"));
   verdict.also("difference_largest", rounded(c.largest, "largest %g"), "steps of sRGB");
+  verdict.add("difference_at_seams", "  at seams", rounded(c.mean_at_seams, "mean %.3f"));
+  verdict.also("at_seams", c.at_seams, "cubes");
   verdict.add("allowed_mean", "allowed", rounded(c.mean_allowed, "mean %.2f"), "steps");
   verdict.hide(false);
   verdict.add("wrong", "wrong", c.wrong, "cubes");

@@ -67,6 +67,26 @@ TEST(CubeEstimate, WhatIsLinearIsKnown) {
   EXPECT_LT(cube.tolerance(0), 1e-3);
 }
 
+// Two triangles of a face that share an edge, in one chart, or the second one elsewhere.
+TEST(CubeEstimate, WherePartsOfTexturesThatAreNotNeighboursMeetIsASeam) {
+  const JudgedTexture texture(64, 64, std::vector<uint8_t>(4 * 64 * 64, 255), 0), other = texture;
+  Paint paint;
+  const auto seam = [&](double moved, const JudgedTexture* second) {
+    JudgedTriangle t = triangle({0, 0, 512}, {1024, 0, 512}, {0, 1024, 512});
+    JudgedTriangle u = triangle({1024, 0, 512}, {1024, 1024, 512}, {0, 1024, 512});
+    t.paint = u.paint = &paint;
+    t.texture = &texture;
+    u.texture = second;
+    t.points = {{{8, 8}, {12, 8}, {8, 12}}};
+    u.points = {{{12 + moved, 8}, {12 + moved, 12}, {8 + moved, 12}}};
+    return Estimated({t, u}, LatticePoint(0)).is_at_seam();
+  };
+  EXPECT_FALSE(seam(0, &texture));
+  EXPECT_TRUE(seam(20, &texture));
+  EXPECT_TRUE(seam(0, &other));
+  EXPECT_TRUE(seam(0, nullptr));
+}
+
 // The error of four points drawn in noise is below the tolerance, and not far below.
 TEST(CubeEstimate, ToleranceIsThatOfFewPoints) {
   std::vector<uint8_t> rgba;
