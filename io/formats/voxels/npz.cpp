@@ -172,6 +172,15 @@ class VoxelArrayChoice {
   std::string unread_;  // the first array of an unsupported type
 };
 
+void put_colours(const VoxelWindow& window, ZipWriter* zip) {
+  begin_array(zip, "colours", "|u1", "(" + std::to_string(window.voxels) + ", 3)");
+  for_each_voxel(window.walk, window.box(), [&](const Voxel& voxel) {
+    const Colour colour = window.colours->of(voxel);
+    for (const uint8_t channel : {colour.r, colour.g, colour.b}) zip->put(channel);
+  });
+  zip->end();
+}
+
 void put_labels(const VoxelWindow& window, ZipWriter* zip) {
   begin_array(zip, "label", "<u2", "(" + std::to_string(window.voxels) + ",)");
   for_each_voxel(window.walk, window.box(),
@@ -215,6 +224,7 @@ void write_npz(const VoxelWindow& window, const std::string& path) {
   begin_array(&zip, "voxel_size", "<f8", "()");
   zip.put(window.grid.voxel_size);
   zip.end();
+  if (window.colours != nullptr && window.colours->are_stored()) put_colours(window, &zip);
   if (window.labels != nullptr) put_labels(window, &zip);
   zip.commit();
 }

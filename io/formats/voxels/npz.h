@@ -2,7 +2,8 @@
 //
 // An archive is a zip file of uncompressed `.npy` arrays. Written: `coordinates` (N x 3, int32: x,
 // y, z from the corner of the grid, in any order), `resolution` (int64), `corner` (3 x float64,
-// world position of the corner of voxel (0, 0, 0)) and `voxel_size` (float64). With layers also
+// world position of the corner of voxel (0, 0, 0)) and `voxel_size` (float64). With colours also
+// `colours` (N x 3, uint8: red, green, blue, sRGB). With layers also
 // `label` (N, uint16: the number of each voxel's layer, 0xffff for voxels of no layer), and of each
 // layer `layer_colours` (uint32, 0xRRGGBB) and `layer_names` (bytes; a zero byte after each name);
 // `layer_kind` (the same) is what a layer is.
