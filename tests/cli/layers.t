@@ -173,7 +173,7 @@ $ svdag export a.svdag --format hashdag -o a --colours -n
 ! svdag: a1k.basic_dag.uncompressed_colors.bin: already exists: choose another name, or omit --no-clobber
 ? 2
 $ svdag export plain.svdag --format hashdag -o c --colours
-! svdag: --colours: plain.svdag has no layers (svdag build --layers)
+! svdag: --colours: plain.svdag has neither colours nor layers (svdag build --colours, --layers)
 ? 2
 $ svdag export a.svdag --format hashdag -o c --colours --layer one
 | c1k.basic_dag.dag.bin: hashdag, 525,823 voxels of level 10 (1K^3)

@@ -14,6 +14,11 @@ struct CountedColour {
   uint32_t voxels;
 
   uint32_t channel(int c) const { return code >> (16 - 8 * c) & 255; }
+  uint32_t squared_distance(const Colour& other) const {
+    const int r = int(channel(0)) - other.r, g = int(channel(1)) - other.g;
+    const int b = int(channel(2)) - other.b;
+    return uint32_t(r * r + g * g + b * b);
+  }
 };
 
 // A part of the colours, and along which channel it is divided.
@@ -29,24 +34,15 @@ struct ColourBox {
   }
 
   // 0 for a single colour.
-  uint64_t weight() const { return voxels * length * length; }
-  // The colours up to the median, and the others. There are two at least.
+  uint64_t weight() const { return voxels * length * length * length * length; }
+  // The colours of both halves of the length. There are two colours at least.
   std::array<ColourBox, 2> divided() const {
-    std::ranges::sort(colours, {}, [c = longest](const CountedColour& colour) {
-      return uint64_t(colour.channel(c)) << 32 | colour.code;
-    });
-    // Colours with the same value stay together.
-    uint64_t before = 0;
-    size_t middle = 0;
-    for (size_t end = 0; middle == 0 || 2 * before < voxels; middle = end) {
-      const uint32_t value = colours[end].channel(longest);
-      uint64_t here = before;
-      while (end < colours.size() && colours[end].channel(longest) == value)
-        here += colours[end++].voxels;
-      if (end == colours.size()) break;
-      before = here;
-    }
-    return {ColourBox(colours.first(middle)), ColourBox(colours.subspan(middle))};
+    const auto channel = [c = longest](const CountedColour& colour) { return colour.channel(c); };
+    const auto [low, high] = std::ranges::minmax(colours, {}, channel);
+    const uint32_t middle = (channel(low) + channel(high) + 1) / 2;
+    const auto upper = std::ranges::stable_partition(
+        colours, [&](const CountedColour& colour) { return channel(colour) < middle; });
+    return {ColourBox(colours.first(colours.size() - upper.size())), ColourBox(upper)};
   }
   Colour mean() const {
     std::array<uint64_t, 3> sums{};
@@ -84,21 +80,16 @@ ColourPalette::ColourPalette(const VoxelWindow& window, const WorkRoom& room)
     *next = low;
     boxes.push_back(high);
   }
-  // Two boxes may have the same mean: then their colours are next to each other.
-  std::ranges::stable_sort(boxes, {}, &ColourBox::mean);
-  for (const ColourBox& box : boxes) {
-    const Colour mean = box.mean();
-    const CountedColour shown{code_of(mean), 0};
-    for (const CountedColour& colour : box.colours) {
-      numbers_[colour.code] = uint32_t(colours_.size());
-      uint32_t squared = 0;
-      for (int c = 0; c < 3; ++c) {
-        const int error = int(colour.channel(c)) - int(shown.channel(c));
-        squared += uint32_t(error * error);
-      }
-      max_squared_error_ = std::max(max_squared_error_, squared);
+  for (const ColourBox& box : boxes) colours_.push_back(box.mean());
+  std::ranges::sort(colours_);
+  colours_.erase(std::ranges::unique(colours_).begin(), colours_.end());
+  for (const CountedColour& colour : all) {
+    uint32_t least = UINT32_MAX;
+    for (uint32_t i = 0; i < colours_.size(); ++i) {
+      const uint32_t squared = colour.squared_distance(colours_[i]);
+      if (squared < least) least = squared, numbers_[colour.code] = i;
     }
-    colours_.push_back(mean);
+    max_squared_error_ = std::max(max_squared_error_, least);
   }
 }
 
