@@ -10,7 +10,8 @@
 // Read: the same, or any archive (or single `.npy`) with one array of N x 3 integers, or one
 // 3-dimensional array of bool or uint8, whose nonzero elements are set. `resolution` and
 // `voxel_size` hold one number, `corner` three, as float32, float64 or integers of 1 to 8 bytes;
-// any other array of these names is rejected, and so are compressed archives. `label` has an
+// any other array of these names is rejected, and so are compressed archives. `colours` (N x 3,
+// uint8) is of the rows of the coordinates; an array of another type is ignored. `label` has an
 // integer for each row of the coordinates. Without names each number is a layer; names may also be
 // an array of texts. Without colours, the names choose them.
 #pragma once
@@ -26,7 +27,8 @@ namespace svdag {
 void write_npz(const VoxelWindow& window, const std::string& path);
 
 // Any other file is an Error (kBadInput), and so is a coordinate outside 0 .. 2^20 - 1. `layers`,
-// which is empty, gets the layers; null: labels are ignored.
-GridPlacement read_npz(const File& file, const VoxelSink& sink, LayerTable* layers);
+// which is empty, gets the layers; null: labels are ignored. `with_colours`: voxels have colours.
+GridPlacement read_npz(const File& file, const VoxelSink& sink, LayerTable* layers,
+                       bool with_colours);
 
 }  // namespace svdag

@@ -72,8 +72,9 @@ void write_vox(const VoxelWindow& window, const ColourPalette* palette, const st
 
 // `up`: the axis of the grid that z becomes. If coordinates are negative, all voxels are shifted so
 // that the minimum is 0. Any other file is an Error (kBadInput). `layers`, which is empty, gets a
-// layer for each colour in use, except for a file without palette whose voxels have one colour;
-// null: the colours are ignored.
-GridPlacement read_vox(const File& file, const VoxelSink& sink, LayerTable* layers, int up);
+// layer for each colour in use; null: there are none. `with_colours`: voxels have colours. A file
+// without palette whose voxels have one number has neither.
+GridPlacement read_vox(const File& file, const VoxelSink& sink, LayerTable* layers,
+                       bool with_colours, int up);
 
 }  // namespace svdag

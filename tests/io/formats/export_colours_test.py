@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Exports hold the stored colour of each voxel, and of each cube of a coarser level.
+"""Exports hold the stored colour of each voxel, and of each cube of a coarser level; imports have them again.
 
 Usage: export_colours_test.py PROGRAMS [DUMP_LABELS]. What is expected is read by the Python reader. DUMP_LABELS prints
 a grid that OpenVDB reads.
@@ -151,6 +151,61 @@ class ExportColours(unittest.TestCase):
         self.export("solid", "y.npz", "--layer", "box.ply")
         arrays = numpy.load(BAKERY.folder / "y.npz")
         self.assertTrue(numpy.array_equal(arrays["colours"], self.expected("solid", 6, arrays["coordinates"])))
+
+    def imported(self, name, *options):
+        """The voxels and colours of an import, which are lossless and those of every voxel."""
+        BAKERY.run("svdag", "import", name, "-o", "back.svdag", "-q", *options)
+        BAKERY.run("svdag-verify", "check", "back.svdag", "-q")
+        about = json.loads(BAKERY.run("svdag", "info", "back.svdag", "--json"))
+        self.assertEqual((about["colours"]["level"], about["colours"]["error"]), (about["levels"], 0))
+        self.export("back", "back.npz")
+        return dict(numpy.load(BAKERY.folder / "back.npz"))
+
+    def test_imports_have_the_colours_that_were_exported(self):
+        for name, level, arrays, colours in self.exports():
+            self.export(name, "x.npz", "--level", level)
+            back = [self.imported("x.npz")]
+            self.assertEqual("label" in back[0], name == "solid")
+            self.export(name, "x.basic_dag.dag.bin", "--level", level, "--colours")
+            back += [self.imported("x.basic_dag.dag.bin"), self.imported("x.npz", "--layout", "compact", "--no-layers", "-m", "8M")]
+            for found in back:
+                self.assertTrue(numpy.array_equal(found["coordinates"], arrays["coordinates"]))
+                self.assertTrue(numpy.array_equal(found["colours"], colours))
+
+    def test_an_imported_vox_has_the_colours_of_its_palette(self):
+        for name, level, arrays, _ in self.exports():
+            self.export(name, "x.vox", "--level", level, "--up", "z")
+            shown, _ = read_vox_palette(BAKERY.folder / "x.vox")
+            found = self.imported("x.vox", "--up", "z", "-r", 2**level)
+            self.assertTrue(numpy.array_equal(found["coordinates"], arrays["coordinates"]))
+            self.assertTrue(numpy.array_equal(found["colours"], shown))
+            self.assertEqual(len(found["layer_colours"]), len(numpy.unique(shown, axis=0)))  # its numbers are layers, too
+            self.assertNotIn("label", self.imported("x.vox", "--no-layers"))
+
+    def test_no_colours_gives_the_bytes_without(self):
+        self.export("exact", "x.npz")
+        arrays = dict(numpy.load(BAKERY.folder / "x.npz"))
+        colours = arrays.pop("colours")
+        numpy.savez(BAKERY.folder / "y.npz", **arrays)
+        BAKERY.run("svdag", "import", "y.npz", "-o", "y.svdag", "-q")
+        BAKERY.run("svdag", "import", "x.npz", "-o", "x.svdag", "-q", "--no-colours")
+        BAKERY.run("svdag", "import", "x.npz", "-o", "z.svdag", "-q")
+        BAKERY.run("svdag", "convert", "z.svdag", "-o", "w.svdag", "-q", "--no-colours")
+        for name in ("x", "w"):
+            self.assertEqual((BAKERY.folder / f"{name}.svdag").read_bytes(), (BAKERY.folder / "y.svdag").read_bytes())
+        # The rows may have any order, and either order of the array.
+        order = numpy.random.default_rng(1).permutation(len(colours))
+        for order_of in "CF":
+            numpy.savez(BAKERY.folder / "s.npz", **{**arrays, "coordinates": arrays["coordinates"][order],
+                                                    "colours": numpy.asarray(colours[order], order=order_of)})
+            self.assertTrue(numpy.array_equal(self.imported("s.npz")["colours"], colours))
+        numpy.savez(BAKERY.folder / "w.npz", **arrays, colours=colours[1:])
+        self.assertIn("not a colour for each row", BAKERY.run("svdag", "import", "w.npz", "-o", "w.svdag", code=3))
+
+    def test_several_colours_of_a_voxel_are_their_mean_in_linear_light(self):
+        numpy.savez(BAKERY.folder / "m.npz", coordinates=[[1, 2, 3], [7, 7, 7], [1, 2, 3], [1, 2, 3]], resolution=8,
+                    colours=numpy.array([[255, 0, 10], [9, 9, 9], [0, 0, 10], [0, 255, 10]], "u1"))
+        self.assertEqual(self.imported("m.npz")["colours"].tolist(), [[156, 156, 10], [9, 9, 9]])
 
     def test_without_colours_exports_are_those_of_before(self):
         BAKERY.run("svdag", "build", "box.ply", "-o", "plain.svdag", "-r", "64", "-q")
