@@ -11,13 +11,15 @@
 #include <span>
 #include <vector>
 
+#include "io/colour.h"
 #include "io/grid.h"
 
 namespace svdag {
 
 using Voxel = std::array<uint32_t, 3>;  // x, y, z, below 2^20 each
-// Takes voxels and, of a file with layers, as many labels; of other files none.
-using VoxelSink = std::function<void(std::span<const Voxel>, std::span<const uint16_t>)>;
+// Takes voxels and, of a file with layers, a label of each, and of one with colours, a colour.
+using VoxelSink =
+    std::function<void(std::span<const Voxel>, std::span<const uint16_t>, std::span<const Colour>)>;
 
 // A cube of voxels that are all set; its origin is a multiple of its side.
 struct FullCube {
@@ -42,15 +44,14 @@ class VoxelBatch {
     if (voxels_.size() == kBatch) flush();
     voxels_.push_back(voxel);
   }
-  // Of a file with layers, for all of its voxels.
-  void add(const Voxel& voxel, uint16_t label) {
-    add(voxel);
-    labels_.push_back(label);
-  }
+  // Of the voxel that was added last. In a file with layers or colours every voxel has one.
+  void add_label(uint16_t label) { labels_.push_back(label); }
+  void add_colour(const Colour& colour) { colours_.push_back(colour); }
   void flush() {
-    if (!voxels_.empty()) sink_(voxels_, labels_);
+    if (!voxels_.empty()) sink_(voxels_, labels_, colours_);
     voxels_.clear();
     labels_.clear();
+    colours_.clear();
   }
 
  private:
@@ -59,6 +60,7 @@ class VoxelBatch {
   const VoxelSink& sink_;
   std::vector<Voxel> voxels_;
   std::vector<uint16_t> labels_;
+  std::vector<Colour> colours_;
 };
 
 }  // namespace svdag

@@ -314,7 +314,7 @@ nb::dict from_coords(const Rows<uint32_t>& coords, const nb::bytes& path, int le
     const auto read = [&](const VoxelSink& sink, const FullCubeSink&) {
       for (size_t at = 0; at < coords.shape(0); at += kBatch) {
         check_interrupt();
-        sink({voxels + at, std::min(kBatch, coords.shape(0) - at)}, {});
+        sink({voxels + at, std::min(kBatch, coords.shape(0) - at)}, {}, {});
       }
       return GridPlacement{Point(corner[0], corner[1], corner[2]), voxel_size,
                            uint64_t(1) << levels};

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "builder/colours/spilled_colours.h"
 #include "builder/import/full_cubes.h"
 #include "builder/merge/merge.h"
 #include "builder/octree/morton.h"
@@ -14,6 +15,7 @@
 #include "builder/run/bake_output.h"
 #include "builder/workspace/disk_need.h"
 #include "builder/workspace/workspace.h"
+#include "io/dag/colours/colour_writer.h"
 #include "io/dag/graph/reduce.h"
 #include "io/units.h"
 #include "streaming/error.h"
@@ -79,11 +81,12 @@ class VoxelReduction {
   Brick brick_ = 0;
 };
 
-// A voxel of a layer, sorted by its brick, then its layer.
+// A voxel with a layer, a colour, or both, sorted by its brick, then its layer.
 struct LabelledVoxel {
   uint64_t brick;  // Morton code
   uint32_t label_and_bit;
-  uint32_t unused;
+  Colour colour;
+  uint8_t unused;
 
   uint32_t label() const { return label_and_bit >> 6; }
   Brick bit() const { return Brick(1) << (label_and_bit & 63); }
@@ -97,18 +100,52 @@ struct LabelledWord {
 };
 using LabelledSort = ExternalSort<LabelledVoxel, LabelledWord>;
 
-// Reduces sorted voxels of layers; without `has_layers`, only their union.
+// The colours of the voxels of a brick: means of those that came.
+class BrickColours {
+ public:
+  void add(uint32_t bit, const Colour& colour) {
+    Sum& sum = sums_[bit];
+    ++sum.count;
+    const std::array<uint8_t, 3> codes{colour.r, colour.g, colour.b};
+    for (size_t c = 0; c < 3; ++c) sum.linear[c] += light_of_codes()[codes[c]];
+  }
+  // Passes the colours on, as those of the cubes of `level`, and forgets them.
+  void move_to(SpilledColours* spilled, int level, uint64_t brick) {
+    for (uint32_t bit = 0; bit < 64; ++bit) {
+      Sum& sum = sums_[bit];
+      if (sum.count == 0) continue;
+      CubeColour colour{brick << 6 | bit, uint8_t(level), true, true, {}};
+      for (size_t c = 0; c < 3; ++c)
+        colour.linear[c] = uint16_t((2 * sum.linear[c] + sum.count) / (2 * sum.count));
+      spilled->add({&colour, 1});
+      sum = {};
+    }
+  }
+
+ private:
+  struct Sum {
+    uint64_t count = 0;
+    std::array<uint64_t, 3> linear{};
+  };
+  std::array<Sum, 64> sums_;
+};
+
+// Reduces sorted voxels of layers; without `has_layers`, only their union. `colours`: takes those
+// of the voxels of `level`; null: they have none.
 class LabelledReduction {
  public:
-  LabelledReduction(bool has_layers, SubDagBuilder* builder)
-      : has_layers_(has_layers), bricks_(builder, has_layers) {}
+  LabelledReduction(bool has_layers, int level, SpilledColours* colours, SubDagBuilder* builder)
+      : has_layers_(has_layers), level_(level), colours_(colours), bricks_(builder, has_layers) {}
 
   void run(LabelledSort* sort) {
     sort->finish([this](const auto& voxels) {
       for (const LabelledVoxel& voxel : voxels) add(voxel);
     });
-    finish();
+    add_brick();
+    bricks_.finish();
   }
+
+ private:
   // In the order of the sort.
   void add(const LabelledVoxel& voxel) {
     if (voxel.brick != code_) {
@@ -118,15 +155,12 @@ class LabelledReduction {
     const Subject layer = subject_of(voxel.label());
     if (sets_.empty() || sets_.back().subject != layer) sets_.push_back({layer, 0});
     sets_.back().brick |= voxel.bit();
-  }
-  void finish() {
-    add_brick();
-    bricks_.finish();
+    if (colours_ != nullptr) of_brick_.add(voxel.label_and_bit & 63, voxel.colour);
   }
 
- private:
   void add_brick() {
     if (sets_.empty()) return;
+    if (colours_ != nullptr) of_brick_.move_to(colours_, level_, code_);
     Brick all = 0;
     for (const SubjectBrick& set : sets_) all |= set.brick;
     sets_.push_back({kUnionSet, all});
@@ -135,41 +169,50 @@ class LabelledReduction {
   }
 
   const bool has_layers_;
+  const int level_;
+  SpilledColours* const colours_;
   BrickReduction bricks_;
+  BrickColours of_brick_;
   uint64_t code_ = 0;               // of the brick being collected
   std::vector<SubjectBrick> sets_;  // of each layer in it
 };
 
-// Gives the voxels of a DAG, in Morton order, their labels.
-class LabelledWalk {
+// The colours of the voxels of a DAG, which come in Morton order.
+class GraphColours {
  public:
-  LabelledWalk(const DagView& dag, const LabelSource& labels, LabelledReduction* reduction)
-      : dag_(dag), labels_(labels), reduction_(reduction) {}
+  GraphColours(const DagView& dag, const VoxelColourSource& colours)
+      : dag_(dag), colours_(colours) {
+    if (!dag.empty()) stack_.emplace_back();
+  }
 
-  // `code`: Morton code of the cube of `node` among those of its level.
-  void visit(uint32_t level, uint32_t node, uint64_t code) {
-    if (level == dag_.brick_level()) return add_brick(dag_.bricks[node], code);
-    if (level + 4 == dag_.brick_level()) check_interrupt();
-    dag_for_children(dag_, level, node,
-                     [&](unsigned c, uint32_t child) { visit(level + 1, child, code << 3 | c); });
+  std::span<const CubeColour> next() {
+    constexpr size_t kAtOnce = 4096;
+    part_.clear();
+    while (part_.size() < kAtOnce && !stack_.empty()) {
+      const CoveredCube cube = stack_.back();
+      stack_.pop_back();
+      if (cube.level == dag_.levels) {
+        const Colour colour = colours_.next();
+        const auto& light = light_of_codes();
+        part_.push_back({cube.morton,
+                         uint8_t(cube.level),
+                         true,
+                         true,
+                         {light[colour.r], light[colour.g], light[colour.b]}});
+        continue;
+      }
+      const size_t first = stack_.size();
+      for_covered_children(dag_, cube, [&](const CoveredCube& child) { stack_.push_back(child); });
+      std::reverse(stack_.begin() + std::ptrdiff_t(first), stack_.end());
+    }
+    return part_;
   }
 
  private:
-  void add_brick(Brick brick, uint64_t code) {
-    std::array<LabelledVoxel, 64> voxels;
-    size_t count = 0;
-    for (; brick != 0; brick &= brick - 1) {
-      const uint32_t bit = uint32_t(std::countr_zero(brick));
-      voxels[count++] = {code, uint32_t(labels_.next()) << 6 | bit, 0};
-    }
-    std::sort(voxels.begin(), voxels.begin() + count,
-              [](const auto& a, const auto& b) { return a.label_and_bit < b.label_and_bit; });
-    for (size_t i = 0; i < count; ++i) reduction_->add(voxels[i]);
-  }
-
   const DagView& dag_;
-  const LabelSource& labels_;
-  LabelledReduction* reduction_;
+  const VoxelColourSource& colours_;
+  std::vector<CoveredCube> stack_;
+  std::vector<CubeColour> part_;
 };
 
 class Import {
@@ -182,37 +225,23 @@ class Import {
     workspace_.clear(config.output, kUnfinishedHint);
   }
 
-  ImportReport run(NodeGraph* graph) {
+  ImportReport run(NodeGraph* graph, const VoxelColourSource* colours) {
     const WorkRoom room = workspace_.room();
-    DagWriter writer(config_.output, checked_grid(*graph), config_.rule,
+    DagWriter writer(nodes_path(colours != nullptr), checked_grid(*graph), config_.rule,
                      config_.layout == Layout::kCompact ? std::optional(room) : std::nullopt);
     LayerTable no_layers;
     const ReducedGraph reduced = reduce(graph, room, executor_, &writer, &no_layers);
     files_ += reduced.spilled;
     check_inputs();
     writer.finish(reduced.voxels, config_.largest_snap);
-    return describe(writer.header());
-  }
-
-  // The graph is reduced first without labels: then its voxels are counted, and can be walked in
-  // any order.
-  ImportReport run(NodeGraph* graph, const LabelSource& labels) {
-    const Grid grid = checked_grid(*graph);
-    DagWriter plain(config_.output, grid, config_.rule);
-    LayerTable no_layers;
-    const ReducedGraph reduced = reduce(graph, workspace_.room(), executor_, &plain, &no_layers);
-    files_ += reduced.spilled;
-    const uint64_t voxels = reduced.voxels;
-    const DagFile dag = plain.finish_unnamed(voxels, 0, {}, config_.source);
-    if (voxels != labels.count)
-      fail_input(labels.path, "has " + format_count(labels.count) + " colours, but the DAG has " +
-                                  format_count(voxels) + " voxels (--no-layers ignores it)");
-    RunSet set = runs_of(grid.levels, [&](SubDagBuilder* builder) {
-      LabelledReduction reduction(true, builder);
-      if (voxels != 0) LabelledWalk(dag.view(), labels, &reduction).visit(0, 0, 0);
-      reduction.finish();
-    });
-    return finish_runs(std::move(set), grid, *labels.layers);
+    if (colours == nullptr) return describe(writer.header());
+    if (reduced.voxels != colours->count)
+      fail_input(colours->path, "has " + format_count(colours->count) +
+                                    " colours, but the DAG has " + format_count(reduced.voxels) +
+                                    " voxels (--no-colours ignores it)");
+    const DagFile nodes = finished_nodes();
+    GraphColours of_voxels(nodes.view(), *colours);
+    return add_colours(nodes, [&] { return of_voxels.next(); });
   }
 
   ImportReport run(const VoxelSource& source, uint64_t count, const LayerTable* layers) {
@@ -222,11 +251,14 @@ class Import {
     DiskNeed(workspace_.scratch())
         .expect_records(count * sizeof(uint64_t), sort_room().bytes / 2, "voxels");
     FullCubes cubes(workspace_.budget());
+    bool has_colours = false;
     uint32_t highest = 0;  // bitwise or of all coordinates
     const GridPlacement place = source(
-        [&](std::span<const Voxel> voxels, std::span<const uint16_t> labels) {
+        [&](std::span<const Voxel> voxels, std::span<const uint16_t> labels,
+            std::span<const Colour> colours) {
           check_interrupt();
-          if (!labels.empty() && !labelled) {
+          if (!(labels.empty() && colours.empty()) && !labelled) {
+            has_colours = !colours.empty();
             sort.reset();
             labelled.emplace(sort_room(), 3, LabelledWord());
           }
@@ -235,7 +267,9 @@ class Import {
             highest |= x | y | z;
             const uint64_t code = morton(LatticePoint(x, y, z));
             if (labelled)
-              labelled->push({code >> 6, uint32_t(labels[i]) << 6 | uint32_t(code & 63), 0});
+              labelled->push({code >> 6,
+                              uint32_t(labels.empty() ? 0 : labels[i]) << 6 | uint32_t(code & 63),
+                              has_colours ? colours[i] : Colour(), 0});
             else
               sort->push(code);
           }
@@ -248,18 +282,34 @@ class Import {
     cubes.sort();
     const Grid grid = choose_grid(place, highest);
     LayerTable table = layers != nullptr ? *layers : LayerTable();
+    SpilledColours colours(workspace_.scratch());
     RunSet set = runs_of(grid.levels, [&](SubDagBuilder* builder) {
       if (labelled)
-        LabelledReduction(!table.empty(), builder).run(&*labelled);
+        LabelledReduction(!table.empty(), grid.levels, has_colours ? &colours : nullptr, builder)
+            .run(&*labelled);
       else
         VoxelReduction(grid.levels, cubes, builder).run(&*sort);
     });
     sort.reset();  // the merge needs the memory
     labelled.reset();
-    return finish_runs(std::move(set), grid, std::move(table));
+    if (!has_colours) return finish_runs(std::move(set), grid, std::move(table), config_.output);
+    finish_runs(std::move(set), grid, std::move(table), nodes_path(true));
+    colours.cut();
+    return add_colours(finished_nodes(), [&] { return colours.next(); });
   }
 
  private:
+  // Where the nodes are written: colours come to a copy.
+  std::string nodes_path(bool has_colours) {
+    return has_colours ? workspace_.folder()->path_of(kBakedName) : config_.output;
+  }
+  DagFile finished_nodes() { return DagFile::open(nodes_path(true)); }
+  ImportReport add_colours(const DagFile& nodes, const CubeColourSource& source) {
+    check_inputs();
+    return describe(write_coloured(nodes, {uint32_t(nodes.grid().levels), 0}, source,
+                                   config_.output, workspace_.room(), executor_));
+  }
+
   Grid checked_grid(const NodeGraph& graph) const {
     const Grid grid = graph.grid();
     if (config_.levels != 0 && config_.levels != grid.levels)
@@ -269,9 +319,10 @@ class Import {
   }
 
   // `table`: without roots and voxels.
-  ImportReport finish_runs(RunSet set, const Grid& grid, LayerTable table) {
+  ImportReport finish_runs(RunSet set, const Grid& grid, LayerTable table,
+                           const std::string& path) {
     Scratch* const scratch = workspace_.scratch();
-    DagOutput output(config_.output, grid, config_.rule, config_.layout, workspace_.room());
+    DagOutput output(path, grid, config_.rule, config_.layout, workspace_.room());
     for (size_t i = 0; i < set.layer_voxels.size(); ++i)
       table.layers[i].voxels = set.layer_voxels[i];
     const MergeConfig merging =
@@ -348,6 +399,7 @@ ImportReport report_of(const Header& header) {
   ImportReport report;
   report.grid = grid_of(header);
   report.layers = header.layer_count;
+  report.has_colours = has_colours(header);
   report.voxels = header.voxels;
   for (const Section& section : header.sections) report.nodes += section.nodes;
   report.file_bytes = header.file_bytes;
@@ -355,13 +407,9 @@ ImportReport report_of(const Header& header) {
   return report;
 }
 
-ImportReport import_graph(NodeGraph* graph, const ImportConfig& config, Executor* executor) {
-  return Import(config, executor).run(graph);
-}
-
-ImportReport import_labelled_graph(NodeGraph* graph, const LabelSource& labels,
-                                   const ImportConfig& config, Executor* executor) {
-  return Import(config, executor).run(graph, labels);
+ImportReport import_graph(NodeGraph* graph, const VoxelColourSource* colours,
+                          const ImportConfig& config, Executor* executor) {
+  return Import(config, executor).run(graph, colours);
 }
 
 ImportReport import_voxels(const VoxelSource& source, const ImportConfig& config,

@@ -6,6 +6,10 @@
 // builder/merge/merge.h). Fully set cubes are inserted between them without being expanded
 // (builder/import/full_cubes.h). Voxels of layers are sorted by brick and layer, so that each brick
 // comes once, with its voxels of every layer.
+//
+// A file with colours is finished first, and then copied with the colours of its voxels: at level
+// L, without error, and uniform where neighbours have the same (docs/format.md, "Colours"). A voxel
+// that comes with several colours has their mean, in linear light.
 #pragma once
 
 #include <functional>
@@ -35,10 +39,11 @@ struct ImportReport {
   Grid grid;
   uint64_t voxels = 0;
   size_t layers = 0;
+  bool has_colours = false;
   uint64_t nodes = 0;  // bricks included
   uint64_t file_bytes = 0;
-  std::string content_hash;  // 32 hex digits
-  int spilled = 0;           // number of sorts that did not fit in memory
+  std::string content_hash;                    // 32 hex digits
+  int spilled = 0;                             // number of sorts that did not fit in memory
   std::vector<std::string> dropped_colours{};  // inputs of an edit with colours
 };
 
@@ -54,18 +59,16 @@ std::string report_json(const ImportReport& report, const std::string& output);
 // Passes all voxels to the sinks and returns their placement.
 using VoxelSource = std::function<GridPlacement(const VoxelSink&, const FullCubeSink&)>;
 
-// The graph has one set of voxels.
-ImportReport import_graph(NodeGraph* graph, const ImportConfig& config, Executor* executor);
-// The layer of each voxel of a graph, in Morton order, which is that of a depth-first walk.
-struct LabelSource {
-  std::string path;                // for errors
-  uint64_t count;                  // of the labels
-  std::function<uint16_t()> next;  // the number of a layer
-  const LayerTable* layers;        // of the labels that next() has returned
+// The colour of each voxel of a graph, in Morton order, which is that of a depth-first walk.
+struct VoxelColourSource {
+  std::string path;  // for errors
+  uint64_t count;
+  std::function<Colour()> next;
 };
-// Error (kBadInput) if there is not one label for each voxel.
-ImportReport import_labelled_graph(NodeGraph* graph, const LabelSource& labels,
-                                   const ImportConfig& config, Executor* executor);
+// The graph has one set of voxels. `colours`: null, if it has none. Error (kBadInput) if there is
+// not one for each voxel.
+ImportReport import_graph(NodeGraph* graph, const VoxelColourSource* colours,
+                          const ImportConfig& config, Executor* executor);
 // Throws Error (kUsage) if a voxel is outside of a grid of config.levels. `count` is the number of
 // voxels, 0 if unknown; if the disk is too small to sort them, throws Error (kOutput) before
 // reading any. `layers`: where the source puts the layers of its labels; if there are none after it

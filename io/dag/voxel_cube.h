@@ -82,6 +82,23 @@ struct VoxelCube {
   }
 };
 
+// Divides a full cube into those whose voxels have one value: calls visit(cube, value) for these,
+// and visit(block, none) for blocks of several values, and for one that is not full. Stops when it
+// returns false. `value_of`: the value of a full cube, or none.
+template <class ValueOf, class Visit>
+bool divide_by_value(const VoxelCube& cube, const ValueOf& value_of, const Visit& visit) {
+  const bool is_block = cube.side == kBlockSide;
+  const auto value =
+      is_block && cube.block != Block::full() ? decltype(value_of(cube))() : value_of(cube);
+  if (value || is_block) return visit(cube, value);
+  for (unsigned c = 0; c < 8; ++c) {
+    const LatticePoint half(c >> 2 & 1, c >> 1 & 1, c & 1);
+    const VoxelCube part{cube.origin + half * (cube.side / 2), cube.side / 2, Block::full()};
+    if (!divide_by_value(part, value_of, visit)) return false;
+  }
+  return true;
+}
+
 // Receives cubes one by one; returns false to stop.
 using VoxelCubeSink = std::function<bool(const VoxelCube&)>;
 

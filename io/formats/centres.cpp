@@ -27,10 +27,13 @@ uint64_t vdb_bytes(VdbFormat format, uint64_t leaves, uint64_t nodes_of_128,
   return 3 * (leaves * 160 + nodes_of_128 * 36'000 + nodes_of_4096 * 280'000) + leaves * values;
 }
 
-// The tree that is filled and written, and the one that is read back.
-uint64_t vdb_label_bytes(uint64_t leaves, uint64_t nodes_of_128, uint64_t nodes_of_4096) {
-  return 2 *
-         (leaves * (160 + 512 * sizeof(int32_t)) + nodes_of_128 * 36'000 + nodes_of_4096 * 280'000);
+// The tree that is filled and written, and the one that is read back. A node has a pointer or a
+// value for each of its 16^3 or 32^3 children.
+uint64_t vdb_value_bytes(size_t value, uint64_t leaves, uint64_t nodes_of_128,
+                         uint64_t nodes_of_4096) {
+  const uint64_t more = value <= 8 ? 0 : 4096 * 32;  // of 16^3: a value in memory of its own
+  return 2 * (leaves * (160 + 512 * value) + nodes_of_128 * (36'000 + more) +
+              nodes_of_4096 * (280'000 + 8 * more));
 }
 
 }  // namespace svdag

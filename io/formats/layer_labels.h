@@ -25,30 +25,14 @@ class LayerLabels {
     return layer_of_cube(file_.view(), view_, level_, voxel[0] << shift, voxel[1] << shift,
                          voxel[2] << shift);
   }
-  // Divides a cube that `walk`, of the same file and level, visits: calls visit(cube, label) for
-  // full cubes of one label, and visit(block, none) for other blocks. Stops when it returns false.
-  template <class Visit>
-  bool divide(const VoxelCube& cube, CubeWalk* walk, const Visit& visit) const {
-    if (cube.side == kBlockSide && cube.block != Block::full()) return visit(cube, std::nullopt);
-    const std::optional<uint32_t> label = of_full_cube(cube, walk);
-    if (label || cube.side == kBlockSide) return visit(cube, label);
-    for (unsigned c = 0; c < 8; ++c) {
-      const LatticePoint half(c >> 2 & 1, c >> 1 & 1, c & 1);
-      const VoxelCube part{cube.origin + half * (cube.side / 2), cube.side / 2, Block::full()};
-      if (!divide(part, walk, visit)) return false;
-    }
-    return true;
-  }
   LayerKind kind() const { return file_.layers().kind; }
   const std::vector<Layer>& layers() const { return file_.layers().layers; }
   Colour colour_of(const Voxel& voxel) const {
     const uint32_t label = of(voxel);
     return label == kNoLayer ? kNoLayerColour : layers()[label].colour;
   }
-
- private:
-  // The label of all voxels of a full cube; nothing if they differ. That is the cube's first layer,
-  // if it fills the cube.
+  // The label of all voxels of a full cube that `walk`, of the same file and level, visits; nothing
+  // if they differ. That is the cube's first layer, if it fills the cube.
   std::optional<uint32_t> of_full_cube(const VoxelCube& cube, CubeWalk* walk) const {
     const uint32_t level = level_ - uint32_t(std::countr_zero(uint64_t(cube.side)));
     if (level == 0) return std::nullopt;  // its node is in other views another one
@@ -68,6 +52,7 @@ class LayerLabels {
     return walk->is_full(level, node) ? std::optional(label) : std::nullopt;
   }
 
+ private:
   const DagFile& file_;
   LayerIndex index_;
   LayerIndexView view_;

@@ -50,6 +50,8 @@ using VdbMetadata = std::map<std::string, std::string>;
 // Collects grids of voxels and writes them to a file.
 class VdbWriter {
  public:
+  using Light = std::array<float, 3>;
+
   virtual ~VdbWriter() = default;
   // Begins a new grid, to which the following calls add.
   virtual void begin(const std::string& name, const IndexToWorld& centres) = 0;
@@ -57,14 +59,19 @@ class VdbWriter {
   // The origin is a multiple of 8; the origin of a larger cube, of its side or of 4096.
   virtual void add(const VoxelCube& cube) = 0;
   virtual void add_voxel(const LatticePoint& voxel) = 0;
-  // Begins the grid of labels, of type Int32 with the background -1. It is the last grid; .nvdb has
-  // none.
+  // Begins the grid of labels, of type Int32 with the background -1, to which metadata() adds from
+  // now on; .nvdb has none.
   virtual void begin_labels(const std::string& name, const IndexToWorld& centres) = 0;
   // All voxels of a cube have the label. `side` is 8 or more; the origin as in add().
   virtual void add_label(const LatticePoint& origin, int64_t side, int32_t label) = 0;
   // [64x + 8y + z]: the label of a voxel of the block; what is not set has none.
   using BlockLabels = std::array<int32_t, 512>;
   virtual void add_labels(const VoxelCube& block, const BlockLabels& labels) = 0;
+  // The same for a grid of colours in linear light, 0 .. 1, of type vec3s with the background 0.
+  virtual void begin_colours(const std::string& name, const IndexToWorld& centres) = 0;
+  virtual void add_colour(const LatticePoint& origin, int64_t side, const Light& light) = 0;
+  using BlockColours = std::array<Light, 512>;
+  virtual void add_colours(const VoxelCube& block, const BlockColours& colours) = 0;
   // Writes all grids to the file `path`, as a whole or not at all; a full disk is an Error
   // (kOutput).
   virtual void write(const std::string& path, VdbFormat format) = 0;
@@ -77,8 +84,9 @@ std::unique_ptr<VdbWriter> make_vdb_writer();
 // included.
 uint64_t vdb_bytes(VdbFormat format, uint64_t leaves, uint64_t nodes_of_128,
                    uint64_t nodes_of_4096);
-// The same for its grid of labels, in addition.
-uint64_t vdb_label_bytes(uint64_t leaves, uint64_t nodes_of_128, uint64_t nodes_of_4096);
+// The same for a grid of values of this size, in addition.
+uint64_t vdb_value_bytes(size_t value, uint64_t leaves, uint64_t nodes_of_128,
+                         uint64_t nodes_of_4096);
 
 // A grid that was read. A voxel is set iff it is active (mask), active and true (bool), or has a
 // value in the range, active or not (float).

@@ -4,17 +4,18 @@
 #include <bit>
 
 #include "io/dag/cube_walk.h"
-#include "io/formats/layer_labels.h"
+#include "io/formats/voxel_colours.h"
 #include "io/voxel_source.h"
 #include "streaming/process/interrupt.h"
 
 namespace svdag {
 
 struct VoxelWindow {
-  Grid grid;                            // of the level; its selection is the window
-  CubeWalk* walk;                       // of the level
-  uint64_t voxels;                      // number set in the window
-  const LayerLabels* labels = nullptr;  // null: the file has no layers
+  Grid grid;                              // of the level; its selection is the window
+  CubeWalk* walk;                         // of the level
+  uint64_t voxels;                        // number set in the window
+  const LayerLabels* labels = nullptr;    // null: the file has no layers
+  const VoxelColours* colours = nullptr;  // null: it has no colours either
 
   const VoxelBox& box() const { return grid.selection; }
 };

@@ -337,3 +337,46 @@ $ ls
 | x.octreenodes
 | y.octreedata
 | y.svdag
+
+## export_stored_colours
+# Stored colours are exported; a vox says what its palette costs.
+$ svdag-scene city -n 2K -q -o city.ply
+$ svdag build city.ply -q -o plain.svdag -r 128
+$ paint_dag plain.svdag painted.svdag 7 9
+$ svdag export painted.svdag -o a.vox
+| a.vox: vox, 75,650 voxels of level 7 (128^3), 869 colours as 255, off by at most 16.8 of 255 steps
+$ svdag export painted.svdag -o a.vox --json --level 5
+| {
+|   "output": "a.vox",
+|   "format": "vox",
+|   "level": 5,
+|   "resolution": 32,
+|   "voxels": 3173,
+|   "palette": {
+|     "colours": 601,
+|     "entries": 255,
+|     "largest_error": 8.660254037844387
+|   }
+| }
+$ svdag export painted.svdag -o a.ply && head -c 300 a.ply | grep -a property
+| a.ply: ply, 75,650 voxels of level 7 (128^3)
+| property double x
+| property double y
+| property double z
+| property uchar red
+| property uchar green
+| property uchar blue
+$ svdag export painted.svdag -o a.npz -q && python3 -m zipfile -l a.npz | grep -o '[a-z_]*.npy'
+| coordinates.npy
+| resolution.npy
+| corner.npy
+| voxel_size.npy
+| colours.npy
+$ svdag export painted.svdag -o a.basic_dag.dag.bin --colours -q && ls *.bin
+| a.basic_dag.dag.bin
+| a.basic_dag.uncompressed_colors.bin
+$ svdag export plain.svdag -o b.basic_dag.dag.bin --colours
+! svdag: --colours: plain.svdag has neither colours nor layers (svdag build --colours, --layers)
+? 2
+$ svdag convert painted.svdag -o bare.svdag --no-colours -q && svdag export bare.svdag -o b.vox -q && svdag export plain.svdag -o c.vox -q && cmp b.vox c.vox && echo same
+| same

@@ -173,7 +173,7 @@ $ svdag export a.svdag --format hashdag -o a --colours -n
 ! svdag: a1k.basic_dag.uncompressed_colors.bin: already exists: choose another name, or omit --no-clobber
 ? 2
 $ svdag export plain.svdag --format hashdag -o c --colours
-! svdag: --colours: plain.svdag has no layers (svdag build --layers)
+! svdag: --colours: plain.svdag has neither colours nor layers (svdag build --colours, --layers)
 ? 2
 $ svdag export a.svdag --format hashdag -o c --colours --layer one
 | c1k.basic_dag.dag.bin: hashdag, 525,823 voxels of level 10 (1K^3)
@@ -224,12 +224,12 @@ $ for format in npz vox; do
 |                3,294             38              4  #6cd9d9  wall.obj
 | plain.svdag: npz, 5,437 voxels of 64^3, 48 DAG nodes, 2.3 KiB
 |   content hash 5afe89eda2043635c1ac1a40dc7a20c3
-| vox.svdag: vox, 5,437 voxels of 64^3, 2 layers, 56 DAG nodes, 2.5 KiB
+| vox.svdag: vox, 5,437 voxels of 64^3, 2 layers, colours, 56 DAG nodes, 2.8 KiB
 |   content hash 5b7c418be3a56738aa962719ee52c8bd
 | ok: sound, in canonical order and minimal
 |                2,143             13              4  #6c7ad9  colour-001
 |                3,294             38              4  #6cd9d9  colour-002
-| plain.svdag: vox, 5,437 voxels of 64^3, 48 DAG nodes, 2.2 KiB
+| plain.svdag: vox, 5,437 voxels of 64^3, colours, 48 DAG nodes, 2.4 KiB
 |   content hash 07944099c16da5972cebd0c4e1865bd5
 $ svdag-verify diff npz.svdag a.svdag --layer floor.obj -q
 $ svdag import a.npz -o json.svdag --json | grep layers

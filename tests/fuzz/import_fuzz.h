@@ -49,7 +49,7 @@ inline int fuzz_graph(std::unique_ptr<NodeGraph> (*reader)(const File&), const u
   return 0;
 }
 
-// `reader(file, sink, layers)` passes voxels, and their labels if it gives layers.
+// `reader(file, sink, layers)` passes voxels, their labels if it gives layers, and maybe colours.
 template <class Reader>
 int fuzz_voxels(const Reader& reader, const uint8_t* data, size_t size) {
   struct Enough {};
@@ -58,11 +58,13 @@ int fuzz_voxels(const Reader& reader, const uint8_t* data, size_t size) {
   try {
     LayerTable layers;
     size_t labels_end = 0;  // one past the largest
-    const VoxelSink sink = [&](std::span<const Voxel> voxels, std::span<const uint16_t> labels) {
+    const VoxelSink sink = [&](std::span<const Voxel> voxels, std::span<const uint16_t> labels,
+                               std::span<const Colour> colours) {
       uint32_t bits = 0;
       for (const Voxel& voxel : voxels) bits |= voxel[0] | voxel[1] | voxel[2];
       if (voxels.empty() || bits >> kMaxLevels != 0) std::abort();
       if (!labels.empty() && labels.size() != voxels.size()) std::abort();
+      if (!colours.empty() && colours.size() != voxels.size()) std::abort();
       for (const uint16_t label : labels) labels_end = std::max<size_t>(labels_end, label + 1U);
       visited += voxels.size();
       if (visited > kMaxVisited) throw Enough();

@@ -4,7 +4,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const auto read = [](const svdag::File& file, const svdag::VoxelSink& sink,
                        svdag::LayerTable* layers) {
-    return svdag::read_vox(file, sink, layers, svdag::kDefaultVoxUp);
+    return svdag::read_vox(file, sink, layers, /*with_colours=*/true, svdag::kDefaultVoxUp);
   };
   return svdag::fuzz_voxels(read, data, size);
 }

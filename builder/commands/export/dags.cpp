@@ -9,10 +9,10 @@
 namespace svdag {
 namespace {
 
-// The exported voxels as a plain file without layers. Returns their number.
+// The exported voxels as a plain file without layers.
 template <class Write>
-uint64_t export_dag(const ExportPart& part, const ExportConfig& config, MemoryBudget* budget,
-                    const Write& write) {
+ExportResult export_dag(const ExportPart& part, const ExportConfig& config, MemoryBudget* budget,
+                        const Write& write) {
   const WorkRoom room{budget, folder_of(config.output)};
   Selection selection{.level = config.selection.level, .bounds = config.selection.bounds};
   if (selection.level == int(part.file.view().levels)) selection.level.reset();
@@ -23,12 +23,12 @@ uint64_t export_dag(const ExportPart& part, const ExportConfig& config, MemoryBu
     derived.emplace(derive(part.file, selection, room));
   const DagFile& file = derived ? *derived : part.file;
   write(WholeDag(file, budget), room);
-  return file.header().voxels;
+  return {file.header().voxels};
 }
 
 }  // namespace
 
-uint64_t export_hashdag(ExportPart* part, const ExportConfig& config, MemoryBudget* budget) {
+ExportResult export_hashdag(ExportPart* part, const ExportConfig& config, MemoryBudget* budget) {
   return export_dag(*part, config, budget, [&](const WholeDag& dag, const WorkRoom& room) {
     if (config.colours)
       write_coloured_hashdag(dag, part->file, config.output, room);
@@ -37,19 +37,20 @@ uint64_t export_hashdag(ExportPart* part, const ExportConfig& config, MemoryBudg
   });
 }
 
-uint64_t export_symvox(ExportPart* part, const ExportConfig& config, MemoryBudget* budget) {
+ExportResult export_symvox(ExportPart* part, const ExportConfig& config, MemoryBudget* budget) {
   return export_dag(*part, config, budget, [&](const WholeDag& dag, const WorkRoom&) {
     write_symvox(dag, config.output);
   });
 }
 
-uint64_t export_transform_dag(ExportPart* part, const ExportConfig& config, MemoryBudget* budget) {
+ExportResult export_transform_dag(ExportPart* part, const ExportConfig& config,
+                                  MemoryBudget* budget) {
   return export_dag(*part, config, budget, [&](const WholeDag& dag, const WorkRoom&) {
     write_transform_dag(dag, config.output);
   });
 }
 
-uint64_t export_octree(ExportPart* part, const ExportConfig& config, MemoryBudget* budget) {
+ExportResult export_octree(ExportPart* part, const ExportConfig& config, MemoryBudget* budget) {
   if (!config.output.ends_with(".octree"))
     fail_usage(config.output +
                ": the name must end in .octree (two more files are written beside it)");

@@ -1,6 +1,7 @@
 #include "builder/commands/export/export.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -11,6 +12,7 @@
 #include "io/dag/open_dag.h"
 #include "io/formats/dags/hashdag.h"
 #include "io/formats/dags/octree.h"
+#include "io/formats/voxel_colours.h"
 #include "io/json.h"
 #include "io/units.h"
 #include "streaming/error.h"
@@ -23,7 +25,7 @@ namespace {
 
 struct FormatRow {
   ExportFormat format;
-  uint64_t (*write)(ExportPart*, const ExportConfig&, MemoryBudget*);
+  ExportResult (*write)(ExportPart*, const ExportConfig&, MemoryBudget*);
   std::string (*path)(const std::string& output,
                       int levels) = nullptr;  // nullptr: the output as given
   std::vector<std::string> (*files)(const std::string& path) = nullptr;  // nullptr: only the output
@@ -75,6 +77,12 @@ void reject_options_of_other_formats(const FormatRow& row, const ExportConfig& c
     fail_usage("--max-voxels: only npz, binvox, vox and ply list voxels, the format is " + format);
 }
 
+bool holds_colours(const FormatRow& row, const ExportConfig& config) {
+  if (row.write == export_hashdag) return config.colours;
+  return row.write == export_vdb || row.write == export_npz || row.write == export_vox ||
+         row.write == export_ply;
+}
+
 void reject_input_as_output(const FormatRow& row, const ExportConfig& config) {
   auto files = row.files != nullptr ? row.files(config.output) : std::vector{config.output};
   if (config.colours) files.push_back(hashdag_colours_path(config.output));
@@ -93,13 +101,27 @@ void check_colours_beside(const ExportConfig& config) {
 }
 
 std::string report_json(const ExportConfig& config, const char* format, const Grid& grid,
-                        uint64_t voxels) {
-  const nlohmann::ordered_json json = {{"output", config.output},
-                                       {"format", format},
-                                       {"level", grid.levels},
-                                       {"resolution", grid.resolution()},
-                                       {"voxels", voxels}};
+                        const ExportResult& result) {
+  nlohmann::ordered_json json = {{"output", config.output},
+                                 {"format", format},
+                                 {"level", grid.levels},
+                                 {"resolution", grid.resolution()},
+                                 {"voxels", result.voxels}};
+  if (const auto& palette = result.palette)
+    json["palette"] = {{"colours", palette->colours},
+                       {"entries", palette->entries},
+                       {"largest_error", palette->largest_error}};
   return json_text(json, 2) + "\n";
+}
+
+// ", 1,234 colours as 255, off by at most 9.4 of 255 steps" of a palette, else nothing.
+std::string palette_text(const ExportResult& result) {
+  if (!result.palette) return {};
+  std::array<char, 32> error;
+  std::snprintf(error.data(), error.size(), "%.1f", result.palette->largest_error);
+  return ", " + format_count(result.palette->colours) + " colours as " +
+         std::to_string(result.palette->entries) + ", off by at most " + error.data() +
+         " of 255 steps";
 }
 
 }  // namespace
@@ -122,23 +144,26 @@ int run(const ExportConfig& options) {
   reject_options_of_other_formats(row, options);
   MemoryBudget budget(memory_or_default(options.memory));
   const WorkRoom room{&budget, folder_of(options.output)};
-  const DagFile file =
-      open_dag(options.file, {.layers = options.selection.layers, .without_colours = true}, &room);
-  if (options.colours && file.layers().empty())
-    fail_usage("--colours: " + file.path() + " has no layers (svdag build --layers)");
+  const DagFile file = open_dag(
+      options.file,
+      {.layers = options.selection.layers, .without_colours = !holds_colours(row, options)}, &room);
+  if (options.colours && !VoxelColours::has_some(file))
+    fail_usage("--colours: " + file.path() +
+               " has neither colours nor layers (svdag build --colours, --layers)");
   ExportPart part(file, options);
   ExportConfig config = options;
   if (row.path != nullptr) config.output = row.path(options.output, part.grid.levels);
   reject_input_as_output(row, config);
   AtomicFile::check(config.output, config.no_clobber);
   if (row.write == export_hashdag) check_colours_beside(config);
-  const uint64_t voxels = row.write(&part, config, &budget);
+  const ExportResult result = row.write(&part, config, &budget);
   if (config.json)
-    std::fputs(report_json(config, row.format.name, part.grid, voxels).c_str(), stdout);
+    std::fputs(report_json(config, row.format.name, part.grid, result).c_str(), stdout);
   else if (!config.quiet)
-    std::printf("%s: %s, %s voxels of level %d (%s^3)\n", printable(config.output).c_str(),
-                row.format.name, format_count(voxels).c_str(), part.grid.levels,
-                format_resolution(uint64_t(part.grid.resolution())).c_str());
+    std::printf("%s: %s, %s voxels of level %d (%s^3)%s\n", printable(config.output).c_str(),
+                row.format.name, format_count(result.voxels).c_str(), part.grid.levels,
+                format_resolution(uint64_t(part.grid.resolution())).c_str(),
+                palette_text(result).c_str());
   return int(ExitCode::kOk);
 }
 

@@ -1,6 +1,7 @@
 // The part of a DAG to export (a box of one of its levels), and the export function per format.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "builder/commands/export/export.h"
@@ -18,18 +19,30 @@ struct ExportPart {
   CubeWalk walk;  // over the exported level
 };
 
-// One function per format. Each writes config.output atomically and returns the number of voxels.
-uint64_t export_vdb(ExportPart* part, const ExportConfig& config, MemoryBudget* budget);
-uint64_t export_nvdb(ExportPart* part, const ExportConfig& config, MemoryBudget* budget);
+// What an export has written.
+struct ExportResult {
+  uint64_t voxels = 0;
+  struct Palette {
+    uint64_t colours = 0;      // of the voxels
+    size_t entries = 0;        // of the palette
+    double largest_error = 0;  // in 8-bit steps
+  };
+  std::optional<Palette> palette{};
+};
+
+// One function per format. Each writes config.output atomically.
+ExportResult export_vdb(ExportPart* part, const ExportConfig& config, MemoryBudget* budget);
+ExportResult export_nvdb(ExportPart* part, const ExportConfig& config, MemoryBudget* budget);
 // Foreign DAG formats: the minimal DAG of the part.
-uint64_t export_hashdag(ExportPart* part, const ExportConfig& config, MemoryBudget* budget);
-uint64_t export_symvox(ExportPart* part, const ExportConfig& config, MemoryBudget* budget);
-uint64_t export_transform_dag(ExportPart* part, const ExportConfig& config, MemoryBudget* budget);
-uint64_t export_octree(ExportPart* part, const ExportConfig& config, MemoryBudget* budget);
+ExportResult export_hashdag(ExportPart* part, const ExportConfig& config, MemoryBudget* budget);
+ExportResult export_symvox(ExportPart* part, const ExportConfig& config, MemoryBudget* budget);
+ExportResult export_transform_dag(ExportPart* part, const ExportConfig& config,
+                                  MemoryBudget* budget);
+ExportResult export_octree(ExportPart* part, const ExportConfig& config, MemoryBudget* budget);
 // Lists of voxels: more than config.max_voxels are an Error (kUsage) before anything is written.
-uint64_t export_npz(ExportPart* part, const ExportConfig& config, MemoryBudget* budget);
-uint64_t export_binvox(ExportPart* part, const ExportConfig& config, MemoryBudget* budget);
-uint64_t export_vox(ExportPart* part, const ExportConfig& config, MemoryBudget* budget);
-uint64_t export_ply(ExportPart* part, const ExportConfig& config, MemoryBudget* budget);
+ExportResult export_npz(ExportPart* part, const ExportConfig& config, MemoryBudget* budget);
+ExportResult export_binvox(ExportPart* part, const ExportConfig& config, MemoryBudget* budget);
+ExportResult export_vox(ExportPart* part, const ExportConfig& config, MemoryBudget* budget);
+ExportResult export_ply(ExportPart* part, const ExportConfig& config, MemoryBudget* budget);
 
 }  // namespace svdag

@@ -46,7 +46,7 @@ void set_up(CLI::App* app, ExportConfig* config) {
       ->type_name("TYPE");
   add_vox_up(app, &config->up);
   app->add_flag("--colours", config->colours,
-                "hashdag: write the colours of layers beside it, 4 bytes a voxel");
+                "hashdag: write its colours beside it, or those of layers, 4 bytes a voxel");
   add_memory_budget(app, &config->memory);
   add_no_clobber(app, &config->no_clobber);
   app->add_flag("--json", config->json, "Print what was written as JSON");

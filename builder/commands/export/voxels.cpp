@@ -1,3 +1,4 @@
+#include <cmath>
 #include <functional>
 
 #include "builder/commands/export/export_part.h"
@@ -27,13 +28,17 @@ VoxelWindow window_of(ExportPart* part, const ExportConfig& config, MemoryBudget
   return window;
 }
 
-uint64_t export_window(ExportPart* part, const ExportConfig& config, MemoryBudget* budget,
-                       const std::function<void(const VoxelWindow&, const std::string&)>& write) {
+ExportResult export_window(
+    ExportPart* part, const ExportConfig& config, MemoryBudget* budget,
+    const std::function<void(const VoxelWindow&, const std::string&)>& write) {
   VoxelWindow window = window_of(part, config, budget);
   std::optional<LayerLabels> labels;
+  std::optional<VoxelColours> colours;
   if (!part->file.layers().empty()) window.labels = &labels.emplace(part->file, part->grid.levels);
+  if (VoxelColours::has_some(part->file))
+    window.colours = &colours.emplace(part->file, part->grid.levels, budget);
   write(window, config.output);
-  return window.voxels;
+  return {window.voxels};
 }
 
 // The occupied box, in voxels of the exported level.
@@ -46,22 +51,29 @@ VoxelBox occupied_window(const ExportPart& part) {
 
 }  // namespace
 
-uint64_t export_npz(ExportPart* part, const ExportConfig& config, MemoryBudget* budget) {
+ExportResult export_npz(ExportPart* part, const ExportConfig& config, MemoryBudget* budget) {
   return export_window(part, config, budget, write_npz);
 }
 
-uint64_t export_binvox(ExportPart* part, const ExportConfig& config, MemoryBudget* budget) {
+ExportResult export_binvox(ExportPart* part, const ExportConfig& config, MemoryBudget* budget) {
   if (!config.selection.bounds) part->grid.selection = occupied_window(*part);
   return export_window(part, config, budget, write_binvox);
 }
 
-uint64_t export_vox(ExportPart* part, const ExportConfig& config, MemoryBudget* budget) {
-  return export_window(part, config, budget, [&](const VoxelWindow& w, const std::string& path) {
-    write_vox(w, path, config.up.value_or(kDefaultVoxUp));
-  });
+ExportResult export_vox(ExportPart* part, const ExportConfig& config, MemoryBudget* budget) {
+  std::optional<ColourPalette> palette;
+  const auto write = [&](const VoxelWindow& window, const std::string& path) {
+    if (part->file.has_colours()) palette.emplace(window, WorkRoom{budget, folder_of(path)});
+    write_vox(window, palette ? &*palette : nullptr, path, config.up.value_or(kDefaultVoxUp));
+  };
+  ExportResult result = export_window(part, config, budget, write);
+  if (palette)
+    result.palette = {palette->distinct(), palette->colours().size(),
+                      std::sqrt(double(palette->max_squared_error()))};
+  return result;
 }
 
-uint64_t export_ply(ExportPart* part, const ExportConfig& config, MemoryBudget* budget) {
+ExportResult export_ply(ExportPart* part, const ExportConfig& config, MemoryBudget* budget) {
   return export_window(part, config, budget, write_ply_points);
 }
 

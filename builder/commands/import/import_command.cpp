@@ -29,7 +29,8 @@ namespace svdag {
 namespace {
 
 using GraphReader = std::unique_ptr<NodeGraph> (*)(const File&);
-using VoxelReader = GridPlacement (*)(const File&, const VoxelSink&, LayerTable*, int up);
+using VoxelReader = GridPlacement (*)(const File&, const VoxelSink&, LayerTable*, bool with_colours,
+                                      int up);
 using FileStart = std::string_view;  // the first bytes of a file
 
 bool looks_like_symvox(const File& file, FileStart) {
@@ -57,11 +58,12 @@ bool looks_like_vdb(const File&, FileStart start) {
   return start.starts_with(" BDV") || start.starts_with("NanoVDB");
 }
 
-GridPlacement read_binvox_alone(const File& file, const VoxelSink& sink, LayerTable*, int) {
+GridPlacement read_binvox_alone(const File& file, const VoxelSink& sink, LayerTable*, bool, int) {
   return read_binvox(file, sink);
 }
-GridPlacement read_npz_alone(const File& file, const VoxelSink& sink, LayerTable* layers, int) {
-  return read_npz(file, sink, layers);
+GridPlacement read_npz_alone(const File& file, const VoxelSink& sink, LayerTable* layers,
+                             bool with_colours, int) {
+  return read_npz(file, sink, layers, with_colours);
 }
 
 struct FormatRow {
@@ -121,17 +123,16 @@ ImportReport import_as(const FormatRow& row, const File& file, const File* colou
   ParallelExecutor executor(threads_or_all(config.threads));
   if (row.graph != nullptr) {
     const std::unique_ptr<NodeGraph> graph = row.graph(file);
-    if (colours == nullptr) return import_graph(graph.get(), import, &executor);
-    LayerTable layers;
-    HashDagColours labels(*colours, &layers);
-    return import_labelled_graph(
-        graph.get(), {colours->path(), labels.count(), [&] { return labels.next(); }, &layers},
-        import, &executor);
+    if (colours == nullptr) return import_graph(graph.get(), nullptr, import, &executor);
+    HashDagColours of_voxels(*colours);
+    const VoxelColourSource source{colours->path(), of_voxels.count(),
+                                   [&] { return of_voxels.next(); }};
+    return import_graph(graph.get(), &source, import, &executor);
   }
   if (row.voxels != nullptr) {
     LayerTable layers;
     const auto read = [&](const VoxelSink& sink, const FullCubeSink&) {
-      return row.voxels(file, sink, config.no_layers ? nullptr : &layers,
+      return row.voxels(file, sink, config.no_layers ? nullptr : &layers, !config.no_colours,
                         config.up.value_or(kDefaultVoxUp));
     };
     return import_voxels(read, import, &executor, 0, &layers);
@@ -165,7 +166,7 @@ int run(const ImportCommandConfig& config) {
   import.inputs = &inputs;
   const FormatRow& row = choose(config, file);
   std::optional<File> colours;
-  if (row.graph == read_hashdag && !config.no_layers) {
+  if (row.graph == read_hashdag && !config.no_colours) {
     const std::string path = hashdag_colours_path(config.file);
     std::error_code error;
     if (std::filesystem::is_regular_file(path, error))
@@ -181,8 +182,9 @@ int run(const ImportCommandConfig& config) {
                 printable(config.import.output).c_str(), row.name,
                 format_count(report.voxels).c_str(),
                 format_resolution(uint64_t(report.grid.resolution())).c_str(),
-                layers_text(report).c_str(), format_count(report.nodes).c_str(),
-                format_bytes(report.file_bytes).c_str(), report.content_hash.c_str());
+                (layers_text(report) + (report.has_colours ? ", colours" : "")).c_str(),
+                format_count(report.nodes).c_str(), format_bytes(report.file_bytes).c_str(),
+                report.content_hash.c_str());
   return int(ExitCode::kOk);
 }
 

@@ -20,7 +20,8 @@ struct ImportCommandConfig {
   std::string grid;               // --grid, vdb: name of the grid; empty: the file's only grid
   std::optional<ValueRange> iso;  // --iso, vdb: values of a float grid that are set
   std::optional<int> up;          // --up, vox: the axis that z becomes, 0 to 2; default: y
-  bool no_layers = false;         // --no-layers: labels and colours are ignored
+  bool no_layers = false;         // --no-layers: labels are ignored, and materials of a .vox
+  bool no_colours = false;        // --no-colours: colours are ignored
   bool sandbox = false;           // --sandbox: OpenVDB runs in a process that can only compute
   ImportConfig import;
   size_t threads = 0;       // 0: all processors

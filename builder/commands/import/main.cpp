@@ -39,9 +39,9 @@ void set_up(CLI::App* app, ImportCommandConfig* config) {
          "vdb: the values of a float grid that are set, for example --iso=-inf,0")
       ->type_name("LOW,HIGH");
   add_vox_up(app, &config->up);
-  app->add_flag(
-      "--no-layers", config->no_layers,
-      "npz, vox, hashdag: only the voxels, without the layers of their labels or colours");
+  app->add_flag("--no-layers", config->no_layers,
+                "npz, vox: no layers of their labels or palette numbers");
+  app->add_flag("--no-colours", config->no_colours, "npz, vox, hashdag: no colours of voxels");
   app->add_flag("--sandbox", config->sandbox,
                 "vdb: decode in a process that can only compute, for untrusted files");
   add_layout(app, &import->layout);

@@ -2,23 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <vector>
 
-#include "io/colour.h"
 #include "io/dag/colours/colour_reader.h"
 #include "io/dag/colours/colour_writer.h"
 
 namespace svdag {
 namespace {
-
-// Linear light of each code: srgb_code() gives the code back.
-std::array<uint16_t, 256> light_of_codes() {
-  std::array<uint16_t, 256> light;
-  for (size_t code = 0; code < light.size(); ++code)
-    light[code] = uint16_t(std::lround(65535 * light_of(double(code))));
-  return light;
-}
 
 // Walks the new DAG and the coloured one side by side, depth first.
 class KeptCubes {
@@ -86,7 +76,7 @@ class KeptCubes {
   const ColourCountTables& tables_;
   const uint32_t level_;
   ColourReader reader_;
-  const std::array<uint16_t, 256> light_;
+  const std::array<uint16_t, 256>& light_;
   std::vector<Pair> stack_;
   std::vector<CubeColour> part_;
 };

@@ -4,12 +4,12 @@
 #include <cstring>
 
 #include "io/formats/graph_window.h"
-#include "io/formats/layer_labels.h"
 #include "io/formats/output.h"
+#include "io/formats/voxel_colours.h"
 #include "io/units.h"
 #include "streaming/error.h"
-#include "streaming/file/file_folder.h"
 #include "streaming/file/file.h"
+#include "streaming/file/file_folder.h"
 
 namespace svdag {
 namespace {
@@ -168,14 +168,14 @@ void put_dag(const WholeDag& dag, const std::array<uint64_t, kMaxSections + 1>& 
 // Writes the colours of the voxels of a DAG, depth first.
 class ColourWriter {
  public:
-  ColourWriter(const DagView& dag, const DagFile& layered, Output* out)
-      : dag_(dag), labels_(layered, int(dag.levels)), out_(out) {}
+  ColourWriter(const DagView& dag, const VoxelColours& colours, Output* out)
+      : dag_(dag), colours_(colours), out_(out) {}
 
   void put_below(uint32_t level, uint32_t node, const Voxel& corner) {
     if (level == dag_.brick_level()) {
       for (Brick bits = dag_.bricks[node]; bits != 0; bits &= bits - 1) {
         const auto [x, y, z] = brick_voxel(unsigned(std::countr_zero(bits)));
-        const Colour colour = labels_.colour_of({corner[0] + x, corner[1] + y, corner[2] + z});
+        const Colour colour = colours_.of({corner[0] + x, corner[1] + y, corner[2] + z});
         out_->put(0xff000000U | uint32_t(colour.b) << 16 | uint32_t(colour.g) << 8 | colour.r);
       }
       return;
@@ -190,7 +190,7 @@ class ColourWriter {
 
  private:
   const DagView& dag_;
-  LayerLabels labels_;
+  const VoxelColours& colours_;
   Output* out_;
 };
 
@@ -220,7 +220,7 @@ std::string hashdag_colours_path(const std::string& path) {
   return strip_ending(path, ".dag.bin") + ".uncompressed_colors.bin";
 }
 
-void write_coloured_hashdag(const WholeDag& dag, const DagFile& layered, const std::string& path,
+void write_coloured_hashdag(const WholeDag& dag, const DagFile& coloured, const std::string& path,
                             const WorkRoom& room) {
   constexpr uint64_t kMaxColours = uint64_t(1) << 32;
   const auto base = word_offsets(dag);
@@ -230,6 +230,7 @@ void write_coloured_hashdag(const WholeDag& dag, const DagFile& layered, const s
   if (voxels > kMaxColours)
     fail_usage("--colours: HashDAG holds at most 2^32 colours, there are " + format_count(voxels) +
                " voxels: export a coarser --level, or leave --colours out");
+  const VoxelColours of_voxels(coloured, int(dag.levels()), room.budget);
   const std::string colours_path = hashdag_colours_path(path);
   const uint64_t bytes =
       kHeaderBytes + 4 * base[dag.brick_level() + 1] + 20 + 8 * enclosed.top.size() + 4 * voxels;
@@ -245,7 +246,7 @@ void write_coloured_hashdag(const WholeDag& dag, const DagFile& layered, const s
   colours.put(uint64_t(enclosed.top.size()));
   colours.put(std::as_bytes(std::span(enclosed.top)));
   colours.put(voxels);
-  ColourWriter(dag.view(), layered, &colours).put_below(0, 0, {0, 0, 0});
+  ColourWriter(dag.view(), of_voxels, &colours).put_below(0, 0, {0, 0, 0});
   colours.commit();
   out.commit();
 }

@@ -35,10 +35,10 @@ void write_hashdag(const WholeDag& dag, const std::string& path);
 // The name of the colours beside the file `path`.
 std::string hashdag_colours_path(const std::string& path);
 
-// The same with the colours of the layers of `layered`; `dag` is a part of it. No voxel,
-// more than 2^32, or 2^24 nodes of the top levels, are an Error (kUsage); too small a disk is one
+// The same with the colours of `coloured` (VoxelColours); `dag` is a part of it. No voxel, more
+// than 2^32, or 2^24 nodes of the top levels, are an Error (kUsage); too small a disk is one
 // (kOutput), before a byte is written.
-void write_coloured_hashdag(const WholeDag& dag, const DagFile& layered, const std::string& path,
+void write_coloured_hashdag(const WholeDag& dag, const DagFile& coloured, const std::string& path,
                             const WorkRoom& room);
 
 // `file` must outlive the graph. Any other file is an Error (kBadInput).

@@ -5,30 +5,26 @@
 // not needed here); u64 count and as many u32, the colours 0xAABBGGRR.
 #pragma once
 
-#include <string>
-
-#include "io/formats/label_numbers.h"
+#include "io/colour.h"
 #include "streaming/file/byte_stream.h"
 
 namespace svdag {
 
 class HashDagColours {
  public:
-  // Any other file is an Error (kBadInput). `layers`, which is empty, gets a layer for each colour.
-  // Both must outlive this.
-  HashDagColours(const File& file, LayerTable* layers);
+  // Any other file is an Error (kBadInput). It must outlive this.
+  explicit HashDagColours(const File& file);
 
   uint64_t count() const { return count_; }
-  // The number of the layer of the next voxel. More than kMaxLayers are an Error (kBadInput).
-  uint16_t next() {
-    uint32_t colour = 0;
-    stream_.read(std::as_writable_bytes(std::span(&colour, 1)));
-    return numbers_.of(colour & 0xffffff);
+  // Of the next voxel.
+  Colour next() {
+    std::array<uint8_t, 4> rgba;
+    stream_.read(std::as_writable_bytes(std::span(rgba)));
+    return {rgba[0], rgba[1], rgba[2]};
   }
 
  private:
   ByteStream stream_;
-  LabelNumbers numbers_;
   uint64_t count_ = 0;
 };
 

@@ -81,17 +81,24 @@ bool reads_back(openvdb::io::File* file, const GridType& mine) {
   return true;
 }
 
-// Writes the grids, and the grids of labels, if there are any.
+// Grids of values of the voxels; null: none.
+struct ValueGrids {
+  openvdb::Int32Grid::Ptr labels;
+  openvdb::Vec3SGrid::Ptr colours;
+};
+
+// Writes the grids, and those of values, if there are any.
 template <class GridType>
-void write_grids(const std::string& path, openvdb::GridPtrVec grids,
-                 const openvdb::Int32Grid::Ptr& labels) {
+void write_grids(const std::string& path, openvdb::GridPtrVec grids, const ValueGrids& values) {
   const size_t count = grids.size();
-  if (labels) grids.push_back(labels);
+  if (values.labels) grids.push_back(values.labels);
+  if (values.colours) grids.push_back(values.colours);
   openvdb::io::File(path).write(grids);
   openvdb::io::File file(path);
   file.setCopyMaxBytes(0);
   file.open(/*delayLoad=*/false);
-  bool same = !labels || reads_back(&file, *labels);
+  bool same = (!values.labels || reads_back(&file, *values.labels)) &&
+              (!values.colours || reads_back(&file, *values.colours));
   for (size_t i = 0; i < count; ++i)
     same = same && reads_back(&file, static_cast<const GridType&>(*grids[i]));
   if (!same) throw openvdb::IoError("reads back differently");
@@ -100,7 +107,7 @@ void write_grids(const std::string& path, openvdb::GridPtrVec grids,
 // Writes the grids with values of another type: 1 (true) where `masks` are active, else 0 (false).
 template <class GridType>
 void write_as(const std::string& path, const std::vector<openvdb::MaskGrid::Ptr>& masks,
-              openvdb::GridClass grid_class, const openvdb::Int32Grid::Ptr& labels) {
+              openvdb::GridClass grid_class, const ValueGrids& values) {
   using Value = typename GridType::ValueType;
   openvdb::GridPtrVec grids;
   for (const openvdb::MaskGrid::Ptr& mask : masks) {
@@ -112,7 +119,7 @@ void write_as(const std::string& path, const std::vector<openvdb::MaskGrid::Ptr>
     grid->setGridClass(grid_class);
     grids.push_back(grid);
   }
-  write_grids<GridType>(path, std::move(grids), labels);
+  write_grids<GridType>(path, std::move(grids), values);
 }
 
 class Writer final : public VdbWriter {
@@ -125,8 +132,10 @@ class Writer final : public VdbWriter {
   }
 
   void metadata(const VdbMetadata& entries) override {
-    openvdb::GridBase& grid = labels_ ? static_cast<openvdb::GridBase&>(*labels_) : *grids_.back();
-    for (const auto& [key, value] : entries) grid.insertMeta(key, openvdb::StringMetadata(value));
+    openvdb::GridBase* grid = grids_.back().get();
+    if (values_.labels) grid = values_.labels.get();
+    if (values_.colours) grid = values_.colours.get();
+    for (const auto& [key, value] : entries) grid->insertMeta(key, openvdb::StringMetadata(value));
   }
 
   void add(const VoxelCube& cube) override {
@@ -146,37 +155,48 @@ class Writer final : public VdbWriter {
   }
 
   void begin_labels(const std::string& name, const IndexToWorld& centres) override {
-    labels_ = std::make_shared<WritableGrid<openvdb::Int32Grid>>(-1);
-    labels_->setName(name);
-    labels_->setTransform(transform_of(centres));
+    values_.labels = std::make_shared<WritableGrid<openvdb::Int32Grid>>(-1);
+    values_.labels->setName(name);
+    values_.labels->setTransform(transform_of(centres));
   }
 
   void add_label(const LatticePoint& origin, int64_t side, int32_t label) override {
-    labels_->tree().sparseFill({coord(origin), coord(origin + (side - 1))}, label, true);
+    values_.labels->tree().sparseFill({coord(origin), coord(origin + (side - 1))}, label, true);
   }
 
   void add_labels(const VoxelCube& block, const BlockLabels& labels) override {
-    openvdb::Int32Tree::LeafNodeType& leaf = *labels_->tree().touchLeaf(coord(block.origin));
-    for (openvdb::Index x = 0; x < 8; ++x) {
-      for (uint64_t plane = block.block.words[x]; plane != 0; plane &= plane - 1) {
-        const openvdb::Index at = 64 * x + openvdb::Index(std::countr_zero(plane));
-        leaf.setValueOn(at, labels[at]);
-      }
-    }
+    auto& leaf = *values_.labels->tree().touchLeaf(coord(block.origin));
+    for_each_bit(block, [&](openvdb::Index at) { leaf.setValueOn(at, labels[at]); });
+  }
+
+  void begin_colours(const std::string& name, const IndexToWorld& centres) override {
+    values_.colours = std::make_shared<WritableGrid<openvdb::Vec3SGrid>>(openvdb::Vec3s(0));
+    values_.colours->setName(name);
+    values_.colours->setTransform(transform_of(centres));
+  }
+
+  void add_colour(const LatticePoint& origin, int64_t side, const Light& light) override {
+    values_.colours->tree().sparseFill({coord(origin), coord(origin + (side - 1))}, vector(light),
+                                       true);
+  }
+
+  void add_colours(const VoxelCube& block, const BlockColours& colours) override {
+    auto& leaf = *values_.colours->tree().touchLeaf(coord(block.origin));
+    for_each_bit(block, [&](openvdb::Index at) { leaf.setValueOn(at, vector(colours[at])); });
   }
 
   void write(const std::string& path, VdbFormat format) override {
     AtomicFile file(path);
     try {
       if (format == VdbFormat::kNano) {
-        SVDAG_ASSERT(grids_.size() == 1 && !labels_);
+        SVDAG_ASSERT(grids_.size() == 1 && !values_.labels && !values_.colours);
         write_nano(*grids_.front(), file.open_name());
       } else if (format == VdbFormat::kBool) {
-        write_as<openvdb::BoolGrid>(file.open_name(), grids_, openvdb::GRID_UNKNOWN, labels_);
+        write_as<openvdb::BoolGrid>(file.open_name(), grids_, openvdb::GRID_UNKNOWN, values_);
       } else if (format == VdbFormat::kFloat) {
-        write_as<openvdb::FloatGrid>(file.open_name(), grids_, openvdb::GRID_FOG_VOLUME, labels_);
+        write_as<openvdb::FloatGrid>(file.open_name(), grids_, openvdb::GRID_FOG_VOLUME, values_);
       } else {
-        write_grids<openvdb::MaskGrid>(file.open_name(), {grids_.begin(), grids_.end()}, labels_);
+        write_grids<openvdb::MaskGrid>(file.open_name(), {grids_.begin(), grids_.end()}, values_);
       }
     } catch (const Error&) {
       throw;
@@ -189,8 +209,18 @@ class Writer final : public VdbWriter {
   }
 
  private:
+  static openvdb::Vec3s vector(const Light& light) { return {light[0], light[1], light[2]}; }
+  // Calls visit(64x + 8y + z) for the set voxels of a block.
+  template <class Visit>
+  static void for_each_bit(const VoxelCube& cube, const Visit& visit) {
+    for (openvdb::Index x = 0; x < 8; ++x) {
+      for (uint64_t plane = cube.block.words[x]; plane != 0; plane &= plane - 1)
+        visit(64 * x + openvdb::Index(std::countr_zero(plane)));
+    }
+  }
+
   std::vector<openvdb::MaskGrid::Ptr> grids_;
-  openvdb::Int32Grid::Ptr labels_;  // null: none
+  ValueGrids values_;
 };
 
 }  // namespace

@@ -33,14 +33,37 @@ void begin_array(ZipWriter* zip, const std::string& name, const std::string& typ
 bool is_coordinates(const NpyArray& a) {
   return is_integer(a) && a.shape.size() == 2 && a.shape[1] == 3;
 }
+bool is_colours(const NpyArray& a) {
+  return a.kind == 'u' && a.bytes == 1 && a.shape.size() == 2 && a.shape[1] == 3;
+}
 bool is_dense(const NpyArray& a) {
   return (a.kind == 'b' || a.kind == 'u') && a.bytes == 1 && a.shape.size() == 3;
 }
 
+// A colour of each row, in either order of the array.
+class NpzColours {
+ public:
+  NpzColours(const File& file, const NpyArray& array) {
+    const uint64_t column = array.fortran_order ? array.shape[0] : 0;
+    for (uint64_t c = 0; c < (array.fortran_order ? 3 : 1); ++c)
+      streams_.emplace_back(file, array.offset + c * column, array.end);
+  }
+  Colour next() {
+    std::array<uint8_t, 3> rgb;
+    for (size_t c = 0; c < 3; ++c)
+      streams_[streams_.size() == 1 ? 0 : c].read(
+          std::as_writable_bytes(std::span(rgb).subspan(c, 1)));
+    return {rgb[0], rgb[1], rgb[2]};
+  }
+
+ private:
+  std::vector<ByteStream> streams_;
+};
+
 // In Fortran order, which numpy.argwhere() gives, all x precede all y and all z: one stream per
 // axis.
 void read_coordinates(const File& file, const NpyArray& array, NpzLabels* labels,
-                      const VoxelSink& sink) {
+                      NpzColours* colours, const VoxelSink& sink) {
   const uint64_t column = array.fortran_order ? array.shape[0] * array.bytes : 0;
   std::vector<ByteStream> streams;
   for (uint64_t a = 0; a < (array.fortran_order ? 3 : 1); ++a)
@@ -55,7 +78,9 @@ void read_coordinates(const File& file, const NpyArray& array, NpzLabels* labels
         fail_input(file.path(), "a coordinate is not 0 ... 1M - 1", stream.offset() - array.bytes);
       voxel[a] = uint32_t(value);
     }
-    labels != nullptr ? batch.add(voxel, labels->next()) : batch.add(voxel);
+    batch.add(voxel);
+    if (labels != nullptr) batch.add_label(labels->next());
+    if (colours != nullptr) batch.add_colour(colours->next());
   }
   batch.flush();
 }
@@ -172,6 +197,15 @@ class VoxelArrayChoice {
   std::string unread_;  // the first array of an unsupported type
 };
 
+void put_colours(const VoxelWindow& window, ZipWriter* zip) {
+  begin_array(zip, "colours", "|u1", "(" + std::to_string(window.voxels) + ", 3)");
+  for_each_voxel(window.walk, window.box(), [&](const Voxel& voxel) {
+    const Colour colour = window.colours->of(voxel);
+    for (const uint8_t channel : {colour.r, colour.g, colour.b}) zip->put(channel);
+  });
+  zip->end();
+}
+
 void put_labels(const VoxelWindow& window, ZipWriter* zip) {
   begin_array(zip, "label", "<u2", "(" + std::to_string(window.voxels) + ",)");
   for_each_voxel(window.walk, window.box(),
@@ -215,11 +249,13 @@ void write_npz(const VoxelWindow& window, const std::string& path) {
   begin_array(&zip, "voxel_size", "<f8", "()");
   zip.put(window.grid.voxel_size);
   zip.end();
+  if (window.colours != nullptr && window.colours->are_stored()) put_colours(window, &zip);
   if (window.labels != nullptr) put_labels(window, &zip);
   zip.commit();
 }
 
-GridPlacement read_npz(const File& archive, const VoxelSink& sink, LayerTable* layers) {
+GridPlacement read_npz(const File& archive, const VoxelSink& sink, LayerTable* layers,
+                       bool with_colours) {
   std::vector<ZipEntry> entries;
   std::array<char, 6> start{};
   archive.read_some_at(0, std::as_writable_bytes(std::span(start)));
@@ -237,23 +273,33 @@ GridPlacement read_npz(const File& archive, const VoxelSink& sink, LayerTable* l
   GridPlacement place;
   VoxelArrayChoice choice(file);
   NpzLayerArrays layer_arrays;
+  std::optional<NpyArray> colour_array;
   for (const ZipEntry& entry : entries) {
     const NpyArray array = read_npy_header(file, entry.offset, entry.offset + entry.bytes);
     const std::string_view name(entry.name.data(), entry.name.size() - 4);  // without .npy
     read_placement(file, name, array, &place);
     choice.consider(name, array);
     layer_arrays.consider(name, array);
+    if (name == "colours" && is_colours(array)) colour_array = array;
   }
   const NpyArray& voxels = choice.voxels();
   if (is_dense(voxels)) {
     for (const uint64_t side : voxels.shape) place.resolution = std::max(place.resolution, side);
     read_dense(file, voxels, sink);
-  } else if (layers != nullptr && layer_arrays.label &&
-             layer_arrays.label->offset != voxels.offset) {
-    NpzLabels labels = read_npz_layers(file, layer_arrays, voxels.shape[0], layers);
-    read_coordinates(file, voxels, &labels, sink);
   } else {
-    read_coordinates(file, voxels, nullptr, sink);
+    std::optional<NpzLabels> labels;
+    std::optional<NpzColours> colours;
+    if (layers != nullptr && layer_arrays.label && layer_arrays.label->offset != voxels.offset)
+      labels.emplace(read_npz_layers(file, layer_arrays, voxels.shape[0], layers));
+    if (with_colours && colour_array && colour_array->offset != voxels.offset) {
+      if (colour_array->shape[0] != voxels.shape[0])
+        fail_input(file.path(),
+                   "has an array \"colours\" that is not a colour for each row of \"coordinates\" "
+                   "(--no-colours ignores it)");
+      colours.emplace(file, *colour_array);
+    }
+    read_coordinates(file, voxels, labels ? &*labels : nullptr, colours ? &*colours : nullptr,
+                     sink);
   }
   for (const ZipEntry& entry : entries) {
     if (zipped) check_crc(file, entry);

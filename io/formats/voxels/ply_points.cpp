@@ -12,15 +12,15 @@ void write_ply_points(const VoxelWindow& window, const std::string& path) {
       "ply\nformat binary_little_endian 1.0\ncomment centres of voxels of side " +
       format_double(window.grid.voxel_size) + "\nelement vertex " + std::to_string(window.voxels) +
       "\nproperty double x\nproperty double y\nproperty double z\n" +
-      (window.labels != nullptr ? "property uchar red\nproperty uchar green\nproperty uchar blue\n"
-                                : "") +
+      (window.colours != nullptr ? "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+                                 : "") +
       "end_header\n");
   const Point corner = window.grid.corner();
   const uint64_t written = for_each_voxel(window.walk, window.box(), [&](const Voxel& voxel) {
     for (int a = 0; a < 3; ++a)
       out.put(corner[a] + (double(voxel[size_t(a)]) + 0.5) * window.grid.voxel_size);
-    if (window.labels == nullptr) return;
-    const Colour colour = window.labels->colour_of(voxel);
+    if (window.colours == nullptr) return;
+    const Colour colour = window.colours->of(voxel);
     for (const uint8_t channel : {colour.r, colour.g, colour.b}) out.put(channel);
   });
   SVDAG_ASSERT(written == window.voxels);

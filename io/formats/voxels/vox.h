@@ -7,16 +7,17 @@
 // size/2. RGBA (256 x {r, g, b, a}) holds the colours from 1 on; without it, they are MagicaVoxel's
 // default palette. A window is written as tiles of 256^3 without the empty ones. z is up in
 // MagicaVoxel: the axis that is up in the grid becomes z, by a rotation about the grid's corner,
-// which reading undoes exactly. Every voxel has colour 1, white; with layers, the colour 1 +
-// the number of its layer, and RGBA (256 x {r, g, b, 255}) the colours from 1 on; the one after the
-// last layer's is for voxels of no layer. World coordinates are not stored.
+// which reading undoes exactly. Every voxel has colour 1, white; with stored colours, one of a
+// palette (io/formats/voxels/colour_palette.h); with layers only, 1 + the number of its layer, and
+// the one after the last layer's for voxels of no layer. Then RGBA (256 x {r, g, b, 255}) is
+// written. World coordinates are not stored.
 #pragma once
 
 #include <array>
 #include <string>
 
 #include "io/dag/layers/layer_table.h"
-#include "io/formats/window.h"
+#include "io/formats/voxels/colour_palette.h"
 #include "streaming/file/file.h"
 
 namespace svdag {
@@ -24,7 +25,6 @@ namespace svdag {
 constexpr uint64_t kMaxVoxModels = 4096;
 constexpr uint64_t kMaxVoxVoxels = uint64_t(1) << 29;  // chunks have 32-bit sizes
 
-constexpr size_t kMaxVoxLayers = 255;
 constexpr int kDefaultVoxUp = 1;  // y, as in scenes
 
 // A rotation by quarter turns, mirrored or not: axis a comes from axis from[a], backwards if
@@ -65,13 +65,16 @@ constexpr VoxTurn vox_turn(int up) {
   return {};
 }
 
-// `up`: the axis of the grid that is up. More tiles, voxels or layers are an Error (kUsage).
-void write_vox(const VoxelWindow& window, const std::string& path, int up);
+// `up`: the axis of the grid that is up. `palette`: of stored colours; null: there are none. More
+// tiles, voxels or layers are an Error (kUsage).
+void write_vox(const VoxelWindow& window, const ColourPalette* palette, const std::string& path,
+               int up);
 
 // `up`: the axis of the grid that z becomes. If coordinates are negative, all voxels are shifted so
 // that the minimum is 0. Any other file is an Error (kBadInput). `layers`, which is empty, gets a
-// layer for each colour in use, except for a file without palette whose voxels have one colour;
-// null: the colours are ignored.
-GridPlacement read_vox(const File& file, const VoxelSink& sink, LayerTable* layers, int up);
+// layer for each colour in use; null: there are none. `with_colours`: voxels have colours. A file
+// without palette whose voxels have one number has neither.
+GridPlacement read_vox(const File& file, const VoxelSink& sink, LayerTable* layers,
+                       bool with_colours, int up);
 
 }  // namespace svdag

@@ -45,8 +45,8 @@ struct Model {
   uint64_t offset, count;  // of its voxel records in the file
 };
 
-// A node of the scene graph: a translation after a turn (one child), a group (its children), or a shape (its
-// models are the frames of an animation; only the first is read).
+// A node of the scene graph: a translation after a turn (one child), a group (its children), or a
+// shape (its models are the frames of an animation; only the first is read).
 struct SceneNode {
   Offset translation{};
   uint32_t layer = kNoLayer;
@@ -115,10 +115,11 @@ class ChunkReader {
 
 class VoxReader {
  public:
-  VoxReader(const File& file, LayerTable* layers, int up)
+  VoxReader(const File& file, LayerTable* layers, bool with_colours, int up)
       : file_(file),
         to_grid_(vox_turn(up).inverse()),
         layers_(layers),
+        with_colours_(with_colours),
         labels_(file.path(), layers, [this](uint64_t label) { return layer_of(label); }) {}
 
   GridPlacement read(const VoxelSink& sink) {
@@ -134,6 +135,7 @@ class VoxReader {
     for (const PlacedModel& placed : placed_) {
       for (size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], placed.corner[a]);
     }
+    with_colours_ = with_colours_ && (palette_ || has_two_numbers());
     VoxelBatch batch(sink);
     for (const PlacedModel& placed : placed_) {
       Offset at;
@@ -141,8 +143,7 @@ class VoxReader {
       read_voxels(models_[placed.model], at, placed.turn, &batch);
     }
     batch.flush();
-    const bool has_colours = palette_ || (layers_ != nullptr && layers_->layers.size() > 1);
-    if (layers_ != nullptr && has_colours)
+    if (layers_ != nullptr && (palette_ || layers_->layers.size() > 1))
       layers_->kind = LayerKind::kMaterial;
     else if (layers_ != nullptr)
       *layers_ = {};
@@ -157,8 +158,25 @@ class VoxReader {
 
   Layer layer_of(uint64_t label) const {
     const std::string number = std::to_string(label);
-    return {"colour-" + std::string(3 - number.size(), '0') + number,
-            palette_ ? (*palette_)[size_t(label)] : default_colour(label)};
+    return {"colour-" + std::string(3 - number.size(), '0') + number, colour_of(label)};
+  }
+  Colour colour_of(uint64_t number) const {
+    return palette_ ? (*palette_)[size_t(number)] : default_colour(number);
+  }
+  // Whether the placed voxels have several numbers of the palette.
+  bool has_two_numbers() const {
+    std::optional<uint8_t> first;
+    for (const PlacedModel& placed : placed_) {
+      const Model& model = models_[placed.model];
+      ByteStream stream(file_, model.offset, model.offset + 4 * model.count);
+      while (!stream.at_end()) {
+        std::array<uint8_t, 4> record;
+        stream.read(std::as_writable_bytes(std::span(record)));
+        if (record[3] != first.value_or(record[3])) return true;
+        first = record[3];
+      }
+    }
+    return false;
   }
 
   Offset middle_voxel(uint32_t model) const {
@@ -319,13 +337,16 @@ class VoxReader {
                      stream.offset() - 4);
         voxel[a] = uint32_t(x);
       }
-      layers_ != nullptr ? batch->add(voxel, labels_.of(record[3])) : batch->add(voxel);
+      batch->add(voxel);
+      if (layers_ != nullptr) batch->add_label(labels_.of(record[3]));
+      if (with_colours_) batch->add_colour(colour_of(record[3]));
     }
   }
 
   const File& file_;
   Turn to_grid_;
   LayerTable* layers_;
+  bool with_colours_;
   LabelNumbers labels_;
   std::optional<std::array<Colour, 256>> palette_;
   std::vector<Model> models_;
@@ -333,13 +354,14 @@ class VoxReader {
   std::set<uint32_t> hidden_layers_;
   bool has_frames_ = false;  // PACK chunk: without a scene graph, models are animation frames
   std::vector<PlacedModel> placed_;
-  uint64_t voxels_ = 0;                              // total of placed_
+  uint64_t voxels_ = 0;  // total of placed_
 };
 
 }  // namespace
 
-GridPlacement read_vox(const File& file, const VoxelSink& sink, LayerTable* layers, int up) {
-  return VoxReader(file, layers, up).read(sink);
+GridPlacement read_vox(const File& file, const VoxelSink& sink, LayerTable* layers,
+                       bool with_colours, int up) {
+  return VoxReader(file, layers, with_colours, up).read(sink);
 }
 
 }  // namespace svdag

@@ -59,19 +59,22 @@ void put_shape(uint32_t id, uint32_t model, Output* out) {
   chunk.end();
 }
 
-// The number in the palette: of the layer, or the one after the last for voxels of no layer.
-uint8_t colour_number(const LayerLabels& labels, const Voxel& voxel) {
-  const size_t layers = labels.layers().size();
-  const size_t number = 1 + std::min<size_t>(labels.of(voxel), layers);
-  if (number > kMaxVoxLayers)
-    fail_usage("vox holds " + format_count(kMaxVoxLayers) + " colours, the file has " +
+// The number in the palette: of the colour; or of the layer, and the one after the last for voxels
+// of no layer.
+uint8_t colour_number(const VoxelWindow& window, const ColourPalette* palette, const Voxel& voxel) {
+  if (palette != nullptr) return uint8_t(1 + palette->number_of(window.colours->of(voxel)));
+  if (window.labels == nullptr) return 1;
+  const size_t layers = window.labels->layers().size();
+  const size_t number = 1 + std::min<size_t>(window.labels->of(voxel), layers);
+  if (number > kMaxPalette)
+    fail_usage("vox holds " + format_count(kMaxPalette) + " colours, the file has " +
                format_count(layers) + " layers and voxels of no layer: export one with --layer");
   return uint8_t(number);
 }
 
 // Returns the number of voxels of the model.
-uint64_t put_model(const VoxelWindow& window, const VoxelBox& box, int64_t side,
-                   const VoxTurn& turn, Output* out) {
+uint64_t put_model(const VoxelWindow& window, const ColourPalette* palette, const VoxelBox& box,
+                   int64_t side, const VoxTurn& turn, Output* out) {
   Chunk size("SIZE", out);
   for (int a = 0; a < 3; ++a) out->put(uint32_t(side));
   size.end();
@@ -83,22 +86,29 @@ uint64_t put_model(const VoxelWindow& window, const VoxelBox& box, int64_t side,
       const int64_t x = voxel[turn.from[a]] % kTile;
       out->put(uint8_t(turn.flip[a] ? side - 1 - x : x));
     }
-    out->put(window.labels != nullptr ? colour_number(*window.labels, voxel) : uint8_t(1));
+    out->put(colour_number(window, palette, voxel));
   });
   out->patch(count_at, uint32_t(count));  // at most 256^3
   chunk.end();
   return count;
 }
 
-void put_palette(const std::vector<Layer>& layers, Output* out) {
+// `colours`: from 1 on.
+void put_palette(std::vector<Colour> colours, Output* out) {
   Chunk chunk("RGBA", out);
-  for (size_t i = 0; i < 256; ++i) {
-    const Colour colour = i < layers.size()    ? layers[i].colour
-                          : i == layers.size() ? kNoLayerColour
-                                               : Colour();
+  colours.resize(256);
+  for (const Colour& colour : colours) {
     for (const uint8_t channel : {colour.r, colour.g, colour.b, uint8_t(255)}) out->put(channel);
   }
   chunk.end();
+}
+
+// With the colour of voxels of no layer after the last one's.
+std::vector<Colour> colours_of(const std::vector<Layer>& layers) {
+  std::vector<Colour> colours;
+  for (const Layer& layer : layers) colours.push_back(layer.colour);
+  colours.push_back(kNoLayerColour);
+  return colours;
 }
 
 // The tiles that contain a voxel of the window.
@@ -127,12 +137,14 @@ std::vector<LatticePoint> tiles_of(const VoxelWindow& window) {
 
 }  // namespace
 
-void write_vox(const VoxelWindow& window, const std::string& path, int up) {
+void write_vox(const VoxelWindow& window, const ColourPalette* palette, const std::string& path,
+               int up) {
   if (window.voxels > kMaxVoxVoxels)
     fail_usage("vox holds at most " + format_count(kMaxVoxVoxels) + " voxels, this window has " +
                format_count(window.voxels) + ": export a coarser --level, or a part with --bounds");
-  if (window.labels != nullptr && window.labels->layers().size() > kMaxVoxLayers)
-    fail_usage("vox holds " + format_count(kMaxVoxLayers) + " colours, the file has " +
+  if (palette == nullptr && window.labels != nullptr &&
+      window.labels->layers().size() > kMaxPalette)
+    fail_usage("vox holds " + format_count(kMaxPalette) + " colours, the file has " +
                format_count(window.labels->layers().size()) + " layers: export one with --layer");
   const std::vector<LatticePoint> tiles = tiles_of(window);
   const int64_t side = std::min(kTile, window.grid.resolution());
@@ -148,7 +160,7 @@ void write_vox(const VoxelWindow& window, const std::string& path, int up) {
       box.min[a] = std::max(box.min[a], window.box().min[a]);
       box.max[a] = std::min(box.max[a], window.box().max[a]);
     }
-    written += put_model(window, box, side, turn, &out);
+    written += put_model(window, palette, box, side, turn, &out);
   }
   SVDAG_ASSERT(written == window.voxels);
   // Node 0 places group 1; nodes 2 + 2i and 3 + 2i are the translation and the shape of model i.
@@ -165,7 +177,10 @@ void write_vox(const VoxelWindow& window, const std::string& path, int up) {
                   std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z), &out);
     put_shape(3 + 2 * i, i, &out);
   }
-  if (window.labels != nullptr) put_palette(window.labels->layers(), &out);
+  if (palette != nullptr)
+    put_palette(palette->colours(), &out);
+  else if (window.labels != nullptr)
+    put_palette(colours_of(window.labels->layers()), &out);
   main.end_of_inner();
   out.commit();
 }

@@ -56,7 +56,7 @@ std::string reduce_graph(const BrickMap& bricks, int levels, uint64_t memory, bo
   ImportConfig config;
   config.output = folder.file("a.svdag");
   config.memory = memory;
-  EXPECT_EQ(import_graph(&graph, config, &executor).spilled > 0, spills);
+  EXPECT_EQ(import_graph(&graph, nullptr, config, &executor).spilled > 0, spills);
   return folder.read("a.svdag");
 }
 
@@ -98,7 +98,7 @@ TEST(GraphReduction, TimeDependsOnNodesNotVoxels) {
   SequentialExecutor executor;
   ImportConfig config;
   config.output = folder.file("a.svdag");
-  const ImportReport report = import_graph(&graph, config, &executor);
+  const ImportReport report = import_graph(&graph, nullptr, config, &executor);
   EXPECT_EQ(report.voxels, uint64_t(1) << 57);
   EXPECT_EQ(report.nodes, 19U);
 }

@@ -27,7 +27,7 @@ ImportReport import_list(const std::vector<Voxel>& voxels, const std::string& ou
   SequentialExecutor executor;
   return import_voxels(
       [&](const VoxelSink& sink, const FullCubeSink& cube_sink) {
-        sink(voxels, {});
+        sink(voxels, {}, {});
         for (const FullCube& cube : cubes) cube_sink(cube);
         return place;
       },
@@ -70,7 +70,7 @@ TEST(ImportVoxels, RejectsASourceThatChangesDuringTheImport) {
   const auto read_while = [&](const std::function<void()>& act) {
     import_voxels(
         [&](const VoxelSink& sink, const FullCubeSink&) {
-          sink(std::vector<Voxel>{{1, 2, 3}}, {});
+          sink(std::vector<Voxel>{{1, 2, 3}}, {}, {});
           act();
           return GridPlacement{};
         },
@@ -131,7 +131,7 @@ ImportReport import_layers(const LabelledVoxels& list, const LayerTable& layers,
         for (size_t at = 0; at < list.voxels.size(); at += 1000) {
           const size_t count = std::min<size_t>(1000, list.voxels.size() - at);
           sink(std::span(list.voxels).subspan(at, count),
-               std::span(list.labels).subspan(at, count));
+               std::span(list.labels).subspan(at, count), {});
         }
         return GridPlacement{};
       },
@@ -219,7 +219,7 @@ TEST(ImportVoxels, RejectsMoreVoxelsThanTheDiskCanSortBeforeReading) {
                      "spilling the voxels needs about");
   EXPECT_EQ(folder.entries(), 0U);
   const VoxelSource one = [](const VoxelSink& sink, const FullCubeSink&) {
-    sink(std::vector<Voxel>{{1, 2, 3}}, {});
+    sink(std::vector<Voxel>{{1, 2, 3}}, {}, {});
     return GridPlacement();
   };
   EXPECT_EQ(import_voxels(one, config, &executor, 1).voxels, 1U);

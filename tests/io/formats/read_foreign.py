@@ -102,6 +102,23 @@ def set_bits(numbers):
     return table[numpy.ascontiguousarray(numbers).view("u1").reshape(-1, 8)].sum(axis=1)
 
 
+def read_vox_palette(path):
+    """The colours of a file's voxels, in its order, and those of its palette."""
+    data = pathlib.Path(path).read_bytes()
+    at, numbers, palette = 20, [], None
+    while at < len(data):
+        name, own = struct.unpack_from("<4sI", data, at)
+        body, at = data[at + 12:at + 12 + own], at + 12 + own
+        if name == b"XYZI":
+            numbers.append(numpy.frombuffer(body, "u1", offset=4).reshape(-1, 4)[:, 3])
+        elif name == b"RGBA":
+            palette = numpy.frombuffer(body, "u1").reshape(256, 4)
+    demand(palette is not None and numpy.all(palette[:, 3] == 255), "an opaque palette")
+    numbers = numpy.concatenate(numbers)
+    demand(numpy.all(numbers > 0), "the number 0 is empty")
+    return palette[numbers - 1, :3], palette[:numbers.max(), :3]
+
+
 def read_hashdag_colours(path):
     """Voxels and the colour of each, as r, g, b, as HashDAG finds them: a voxel's colour is behind those of the
     voxels before it, whose numbers are in the masks of the nodes beside its path."""
