@@ -1,4 +1,4 @@
-// `svdag query FILE.svdag < POINTS`: which points are in a set voxel.
+// `svdag query FILE.svdag < POINTS`: which points are in a set voxel, and its colour.
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -7,6 +7,7 @@
 #include <string>
 
 #include "builder/commands/commands.h"
+#include "io/dag/colours/dag_colours.h"
 #include "io/dag/cube_at.h"
 #include "io/dag/dag_file.h"
 #include "io/dag/occupied_bounds.h"
@@ -67,12 +68,27 @@ std::optional<LatticePoint> voxel_of(const Lattice& lattice, const Grid& grid, c
   return voxel;
 }
 
-void print_cube(const DagFile& file, const Grid& grid, const LatticePoint& voxel) {
+// "  #rrggbb", or "  none".
+void print_colour(const ColourView& colours, const LatticePoint& voxel) {
+  const uint32_t colour = svdag_colour(colours, colours.dag.levels, uint32_t(voxel.x),
+                                       uint32_t(voxel.y), uint32_t(voxel.z));
+  if (colour == kNoColour) {
+    std::printf("  none");
+  } else {
+    std::printf("  #%02x%02x%02x", colour & 255, colour >> 8 & 255, colour >> 16);
+  }
+}
+
+// `colours`: of the file; null: it has none.
+void print_cube(const DagFile& file, const DagColours* colours, const Grid& grid,
+                const LatticePoint& voxel) {
   const CubeAt cube = cube_at(file.view(), voxel);
   const LatticePoint end = cube.min + (int64_t(1) << (grid.levels - cube.level));
   const Box box = world_box(grid, {cube.min, end});
-  std::printf("%s %d  %.17g %.17g %.17g  %.17g %.17g %.17g\n", cube.set ? "set" : "empty",
+  std::printf("%s %d  %.17g %.17g %.17g  %.17g %.17g %.17g", cube.set ? "set" : "empty",
               cube.level, box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z);
+  if (cube.set && colours != nullptr) print_colour(colours->view(), voxel);
+  std::putchar('\n');
 }
 
 }  // namespace
@@ -81,12 +97,15 @@ int run(const QueryCommand& command) {
   const DagFile file = open_dag(command.file);
   const Grid grid = file.grid();
   const Lattice lattice(grid);
+  MemoryBudget budget(default_memory_limit());
+  std::optional<DagColours> colours;
+  if (file.has_colours()) colours.emplace(file, &budget);
   std::string line;
   for (uint64_t number = 1; read_line(number, &line); ++number) {
     check_interrupt();
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     if (const auto voxel = voxel_of(lattice, grid, parse_point(line, number))) {
-      print_cube(file, grid, *voxel);
+      print_cube(file, colours ? &*colours : nullptr, grid, *voxel);
     } else {
       std::puts("outside");
     }

@@ -41,7 +41,8 @@ void add_query(CLI::App* program, Command* command) {
                "Reads points from standard input, one per line: x y z in world units. For each it "
                "prints \"set\" and the voxel, \"empty\" and the largest empty cube of the octree "
                "around the point, both as level (of the octree; the last is that of voxels) and "
-               "box, or \"outside\" if the point is not in the grid.");
+               "box, or \"outside\" if the point is not in the grid. If the file has colours, that of a "
+               "set voxel follows, \"#rrggbb\" or \"none\".");
   app->allow_extras();  // points, most likely
   app->preparse_callback([=](size_t) { *config = {}; });
   app->callback([=] {
