@@ -221,6 +221,19 @@ class PyFile {
     return owned<Bools>(std::move(set), {n});
   }
 
+  template <class T>
+  std::tuple<Ints, Doubles> nearest(const Rows<T>& points, double max_distance, int layer) const {
+    const size_t n = points.shape(0);
+    std::vector<std::array<int32_t, 3>> voxels(n);
+    std::vector<double> distances(n);
+    const std::span rows(reinterpret_cast<const std::array<T, 3>*>(points.data()), n);
+    interruptible([&] {
+      find_nearest(view(layer), rows, max_distance, voxels.data(), distances.data(),
+                   executor_.get());
+    });
+    return {owned<Ints>(std::move(voxels), {n, 3}), owned<Doubles>(std::move(distances), {n})};
+  }
+
   bool box_occupied(const Corner& low, const Corner& high, int layer) const {
     bool found = false;
     interruptible([&] { found = any_in_box(view(layer), box_of(low, high)); });
@@ -410,6 +423,8 @@ NB_MODULE(_svdag, m) {
       .def("bricks", &PyFile::bricks)
       .def("occupied_voxels", &PyFile::occupied<int64_t>)
       .def("occupied_points", &PyFile::occupied<double>)
+      .def("nearest_voxels", &PyFile::nearest<int64_t>)
+      .def("nearest_points", &PyFile::nearest<double>)
       .def("box_occupied", &PyFile::box_occupied)
       .def("count", &PyFile::count)
       .def("occupied_box", &PyFile::occupied_box)

@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "io/dag/colours/colour_reader.h"
+#include "io/dag/nearest.h"
 #include "streaming/memory/memory_budget.h"
 #include "streaming/process/interrupt.h"
+#include "verify/trace/kernel/processor.h"
 #include "verify/trace/kernel/tree64.h"
 
 namespace svdag {
@@ -13,6 +15,7 @@ namespace {
 
 constexpr size_t kPointsPerTask = size_t(1) << 16;
 constexpr size_t kColoursPerTask = size_t(1) << 13;
+constexpr size_t kNearestPerTask = size_t(1) << 12;
 constexpr size_t kRaysPerTask = size_t(1) << 14;
 constexpr size_t kRaysTogether = 256;  // rays and hits of a thread stay in its cache
 constexpr size_t kTogether = 32;  // points that descend together, so that none waits for memory
@@ -24,6 +27,13 @@ void in_pieces(size_t count, size_t piece, Executor* executor, const Visit& visi
     check_interrupt();
     visit(i * piece, std::min(count, (i + 1) * piece));
   });
+}
+
+// The same for loops of look-ups, compiled for this processor.
+template <class Visit>
+void in_fast_pieces(size_t count, size_t piece, Executor* executor, const Visit& visit) {
+  in_pieces(count, piece, executor,
+            [&](size_t begin, size_t end) { run_fast([&] { visit(begin, end); }); });
 }
 
 // Looks up to kTogether voxels up, level by level: while the children of one are fetched from
@@ -78,7 +88,7 @@ std::array<uint32_t, 3> voxel_at(const DagView& dag, const std::array<double, 3>
 template <class Point>
 void look_up_all(const DagView& dag, std::span<const Point> points, uint8_t* set,
                  Executor* executor) {
-  in_pieces(points.size(), kPointsPerTask, executor, [&](size_t begin, size_t end) {
+  in_fast_pieces(points.size(), kPointsPerTask, executor, [&](size_t begin, size_t end) {
     std::array<uint32_t, 3> voxels[kTogether];
     for (size_t at = begin; at < end; at += kTogether) {
       const size_t count = std::min(kTogether, end - at);
@@ -110,11 +120,47 @@ void put_colour(uint32_t colour, Rgb* out) {
 template <class Point, class CubeOf>
 void look_up_colours_of(const ColourView& colours, uint32_t level, std::span<const Point> points,
                         Rgb* out, Executor* executor, const CubeOf& cube_of) {
-  in_pieces(points.size(), kColoursPerTask, executor, [&](size_t begin, size_t end) {
+  in_fast_pieces(points.size(), kColoursPerTask, executor, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const std::array<uint32_t, 3> cube = cube_of(points[i]);
       if (is_covered(colours.dag, level, cube))
         put_colour(svdag_colour(colours, level, cube[0], cube[1], cube[2]), &out[i]);
+    }
+  });
+}
+
+bool units_of(const DagView&, const std::array<int64_t, 3>& voxel, int64_t (&point)[3]) {
+  for (size_t a = 0; a < 3; ++a) {
+    if (std::abs(double(voxel[a])) >= kFarthestPoint) return false;
+    point[a] = (2 * voxel[a] + 1) * (int64_t(1) << (kNearestBits - 1));
+  }
+  return true;
+}
+bool units_of(const DagView& dag, const std::array<double, 3>& world, int64_t (&point)[3]) {
+  return snap_for_nearest(dag, {world[0], world[1], world[2]}, point);
+}
+
+template <class Point>
+void find_nearest_of(const DagView& dag, std::span<const Point> points, double max_distance,
+                     std::array<int32_t, 3>* voxels, double* distances, Executor* executor) {
+  in_fast_pieces(points.size(), kNearestPerTask, executor, [&](size_t begin, size_t end) {
+    for (size_t at = begin; at < end; at += kTogether) {
+      const size_t count = std::min(kTogether, end - at);
+      int64_t units[kTogether][3] = {};
+      bool is_valid[kTogether];
+      for (size_t i = 0; i < count; ++i) is_valid[i] = units_of(dag, points[at + i], units[i]);
+      NearestPath paths[kTogether];
+      find_paths(dag, units, count, paths);
+      for (size_t i = 0; i < count; ++i) {
+        NearestVoxel nearest;
+        double& distance = distances[at + i];
+        if (is_valid[i]) nearest = nearest_within(dag, units[i], paths[i], max_distance, &distance);
+        const auto& [x, y, z] = nearest.voxel;
+        voxels[at + i] = {int32_t(x), int32_t(y), int32_t(z)};
+        if (nearest.found) continue;
+        voxels[at + i] = {-1, -1, -1};
+        distance = std::numeric_limits<double>::infinity();
+      }
     }
   });
 }
@@ -369,8 +415,7 @@ void look_up(const DagView& dag, std::span<const std::array<double, 3>> points, 
 }
 
 void look_up_colours(const ColourView& colours, uint32_t level,
-                     std::span<const std::array<int64_t, 3>> points, Rgb* out,
-                     Executor* executor) {
+                     std::span<const std::array<int64_t, 3>> points, Rgb* out, Executor* executor) {
   look_up_colours_of(colours, level, points, out, executor,
                      [&](const auto& point) { return voxel_at(colours.dag, point); });
 }
@@ -389,9 +434,20 @@ void fill_window_colours(const DagColours& colours, uint32_t level, const VoxelB
                          Executor* executor) {
   const VoxelBox inside = clipped(box, level);
   if (inside.empty() || colours.view().dag.empty()) return;
-  in_slabs(inside, executor, [&](const VoxelBox& part) {
-    ColourWindow(colours, level, box, part, out).paint();
-  });
+  in_slabs(inside, executor,
+           [&](const VoxelBox& part) { ColourWindow(colours, level, box, part, out).paint(); });
+}
+
+void find_nearest(const DagView& dag, std::span<const std::array<int64_t, 3>> points,
+                  double max_distance, std::array<int32_t, 3>* voxels, double* distances,
+                  Executor* executor) {
+  find_nearest_of(dag, points, max_distance, voxels, distances, executor);
+}
+
+void find_nearest(const DagView& dag, std::span<const std::array<double, 3>> points,
+                  double max_distance, std::array<int32_t, 3>* voxels, double* distances,
+                  Executor* executor) {
+  find_nearest_of(dag, points, max_distance, voxels, distances, executor);
 }
 
 bool any_in_box(const DagView& dag, const VoxelBox& box) {

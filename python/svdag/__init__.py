@@ -270,6 +270,20 @@ class File:
         rows, file = _points(points), self._open()
         return (file.colours_voxels if rows.dtype.kind == "i" else file.colours_points)(rows, at, colour)
 
+    def nearest(self, points: ArrayLike, max_distance: float = _np.inf,
+                layer: Union[None, int, str] = None) -> Tuple[NDArray, NDArray]:
+        """The set voxels nearest to (n, 3) points: voxels, (n, 3) int32, and distances, (n,) float64 in world units.
+
+        Floats are world coordinates, integers are voxels and stand for their middles. The distance is that to the closed cube of
+        the voxel, 0 inside. Of several at the same distance, the first in the order of coords(). -1 and infinite where no voxel is
+        within max_distance (world units). Exact for the point rounded to 2^-23 voxel; at most 2^36 voxels from the grid's corner.
+        """
+        limit = float(max_distance)
+        if not limit >= 0:
+            raise ValueError("nearest: max_distance must be 0 or more")
+        rows, file = _points(points), self._open()
+        return (file.nearest_voxels if rows.dtype.kind == "i" else file.nearest_points)(rows, limit, self._layer(layer))
+
     def box_occupied(self, lo: Corner, hi: Corner, layer: Union[None, int, str] = None) -> bool:
         """Whether any of the voxels lo .. hi - 1 is set."""
         return self._open().box_occupied(*self._box(lo, hi, self.levels), self._layer(layer))

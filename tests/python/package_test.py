@@ -140,6 +140,50 @@ class Reading(Files):
             near = self.coords[(off ** 2).sum(1) <= radius ** 2]
             np.testing.assert_array_equal(np.unique(file.sphere(center, radius).reshape(-1, 3), axis=0), near)
 
+    def nearest_of_all(self, coords, points):
+        """The numbers and distances, in voxels, of the nearest voxels; of several, the first."""
+        numbers, distances = [], []
+        for point in points:
+            off = np.maximum(np.maximum(coords - point, point - (coords + 1)), 0)
+            squares = (off ** 2).sum(1)
+            numbers.append(squares.argmin())
+            distances.append(np.sqrt(squares.min()))
+        return np.array(numbers), np.array(distances)
+
+    def test_the_nearest_voxel_is_that_of_a_search_of_all(self):
+        points = np.vstack([self.random.uniform(-100, 350, (150, 3)), self.random.uniform(60, 90, (150, 3))])
+        points = np.round(points * 1024) / 1024
+        voxels = self.random.integers(-9, 250, (200, 3))
+        for file in self.every():
+            coords = file.coords()
+            for given, middles in [(file.origin + points * file.voxel_size, points), (voxels, voxels + 0.5)]:
+                numbers, distances = self.nearest_of_all(coords, middles)
+                found, away = file.nearest(given)
+                self.assertEqual((found.dtype, away.dtype), (np.int32, np.float64))
+                np.testing.assert_array_equal(found, coords[numbers])
+                np.testing.assert_allclose(away, distances * file.voxel_size, rtol=1e-12, atol=0)
+                limit = float(np.median(away))
+                found, within = file.nearest(given, max_distance=limit)
+                np.testing.assert_array_equal(within, np.where(away <= limit, away, np.inf))
+                np.testing.assert_array_equal(found[away > limit], -1)
+            self.assertFalse(np.isfinite(file.nearest([[np.nan, 0, 0], [np.inf, 0, 0], [0, -1e300, 0]])[1]).any())
+            self.assertFalse(np.isfinite(file.nearest(np.array([[2 ** 63, 0, 0]], np.uint64))[1]).any())
+            with self.assertRaises(ValueError):
+                file.nearest([[0, 0, 0]], max_distance=-1)
+        lines = program("svdag", "query", self.plain, "--nearest", text="".join("{} {} {}\n".format(*p) for p in points)).splitlines()
+        away = svdag.open(self.plain).nearest(points)[1]
+        self.assertEqual([float(line.split()[1]) for line in lines], list(away))
+
+    def test_the_nearest_voxel_of_a_layer(self):
+        with svdag.open(self.folder / "layers.svdag") as file:
+            point = file.origin + self.random.uniform(-10, 140, (40, 3)) * file.voxel_size
+            for layer in ("ball", "floor"):
+                coords = file.coords(layer=layer)
+                numbers, distances = self.nearest_of_all(coords, (point - file.origin) / file.voxel_size)
+                found, away = file.nearest(point, layer=layer)
+                np.testing.assert_allclose(away, distances * file.voxel_size, rtol=0, atol=2 ** -22 * file.voxel_size)
+                self.assertTrue(file.occupied(found, layer=layer).all())
+
     def test_bricks_are_all_voxels_in_any_chunk(self):
         for file in self.every():
             for chunk in (1, 7, 1 << 16):
@@ -519,7 +563,7 @@ class Refusals(Files):
                   np.ma.zeros((3, 3)), np.full((3, 3), 2 ** 64 - 1, np.uint64), np.zeros((2, 3), "M8[s]"), {}, {"a": 1}, object(), len,
                   np.int64(5), np.float64(2.5), True, slice(3), self.coords[:10], self.coords[:10].astype(float), [[1, 2], [3]]]
         calls = [(f.window, 2, 4) for f in (file, layers)] + [(f.coords, 0, 4) for f in (file, layers)] + [
-            (file.sphere, 2, 3), (layers.sphere, 2, 3), (file.occupied, 1, 2), (layers.occupied, 1, 2), (file.box_occupied, 2, 3),
+            (file.sphere, 2, 3), (layers.sphere, 2, 3), (file.occupied, 1, 2), (layers.occupied, 1, 2), (file.nearest, 1, 3), (layers.nearest, 1, 3), (file.box_occupied, 2, 3),
             (file.count, 0, 4), (layers.count, 0, 4), (file.trace, 2, 4), (layers.trace, 2, 4), (svdag.unpack_bricks, 1, 1),
             (lambda *a: list(file.bricks(*a)), 0, 4), (svdag.open, 1, 1), (svdag.from_array, 2, 2), (svdag.from_coords, 2, 2)]
         outputs = [None, "", 5, "/nonexistent/a", str(self.folder), str(self.folder / "f.svdag"), b"\xff", "\0", "a\0b"]

@@ -16,8 +16,8 @@ class ColourReader {
   // Skipped entries cost a binary search.
   void advance(uint64_t number) {
     if (number < entry_end()) return;
-    const ColourEntry *const begin = view_.entries + entry_ + 1,
-                             *const end = view_.entries + view_.entry_count;
+    const ColourEntry *const begin = view_.entries + entry_ + 1, *const end = view_.entries +
+                                                                              view_.entry_count;
     const auto is_before = [](uint64_t n, const ColourEntry& entry) { return n < entry.first; };
     entry_ = uint64_t(std::upper_bound(begin, end, number, is_before) - view_.entries) - 1;
   }
