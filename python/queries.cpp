@@ -152,7 +152,7 @@ void find_nearest_of(const DagView& dag, std::span<const Point> points, double m
       NearestPath paths[kTogether];
       find_paths(dag, units, count, paths);
       for (size_t i = 0; i < count; ++i) {
-        NearestVoxel nearest;
+        NearestSetVoxel nearest;
         double& distance = distances[at + i];
         if (is_valid[i]) nearest = nearest_within(dag, units[i], paths[i], max_distance, &distance);
         const auto& [x, y, z] = nearest.voxel;

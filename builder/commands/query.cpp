@@ -109,7 +109,7 @@ void print_cube(const QuerySource& source, const Point& point) {
 
 void print_nearest(const QuerySource& source, const Point& point, double max_distance) {
   double distance = 0;
-  const NearestVoxel nearest =
+  const NearestSetVoxel nearest =
       nearest_in_world(source.file.view(), {point.x, point.y, point.z}, max_distance, &distance);
   if (!nearest.found) {
     std::printf("none");

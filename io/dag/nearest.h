@@ -27,7 +27,7 @@ constexpr double kFarthestPoint = 68719476736.0;  // voxels on an axis: 2^36
 using NearestSquare = unsigned __int128;          // of units of 2^-23 voxel
 constexpr NearestSquare kNoLimit = ~NearestSquare(0);
 
-struct NearestVoxel {
+struct NearestSetVoxel {
   bool found = false;
   uint32_t voxel[3] = {};
   NearestSquare square = kNoLimit;  // of the distance
@@ -104,7 +104,7 @@ class NearestSearch {
   NearestSearch(const DagView& dag, const int64_t (&point)[3], Square limit) noexcept
       : dag_(dag), point_{point[0], point[1], point[2]}, best_(limit) {}
 
-  bool run(const NearestPath& path, NearestVoxel* nearest) noexcept {
+  bool run(const NearestPath& path, NearestSetVoxel* nearest) noexcept {
     if (dag_.empty()) return false;
     for (uint32_t level = path.deepest + 1; level-- > 0;) {
       const uint32_t done = level == path.deepest ? 0 : 1U << path_octant(dag_, level, point_);
@@ -286,9 +286,9 @@ class NearestSearch {
 
 // The voxel nearest to `point`, in units and less than kFarthestPoint, if the square of its
 // distance is at most `limit`. `path`: that of the point.
-inline NearestVoxel nearest_voxel(const DagView& dag, const int64_t (&point)[3],
-                                  const NearestPath& path, NearestSquare limit) noexcept {
-  NearestVoxel nearest;
+inline NearestSetVoxel nearest_voxel(const DagView& dag, const int64_t (&point)[3],
+                                     const NearestPath& path, NearestSquare limit) noexcept {
+  NearestSetVoxel nearest;
   using Near = NearestSearch<uint64_t>;
   using Far = NearestSearch<NearestSquare>;
   const auto near_limit = uint64_t(std::min<NearestSquare>(limit, Near::kLargest - 1));
@@ -296,8 +296,8 @@ inline NearestVoxel nearest_voxel(const DagView& dag, const int64_t (&point)[3],
     Far(dag, point, std::min(limit, Far::kLargest - 1)).run(path, &nearest);
   return nearest;
 }
-inline NearestVoxel nearest_voxel(const DagView& dag, const int64_t (&point)[3],
-                                  NearestSquare limit = kNoLimit) noexcept {
+inline NearestSetVoxel nearest_voxel(const DagView& dag, const int64_t (&point)[3],
+                                     NearestSquare limit = kNoLimit) noexcept {
   NearestPath path;
   find_paths(dag, &point, 1, &path);
   return nearest_voxel(dag, point, path, limit);
@@ -316,21 +316,21 @@ inline bool snap_for_nearest(const DagView& dag, const double (&world)[3],
 
 // The voxel nearest to `point`, in units, and *distance in world units, which is at most
 // `max_distance` if a voxel is found.
-inline NearestVoxel nearest_within(const DagView& dag, const int64_t (&point)[3],
-                                   const NearestPath& path, double max_distance,
-                                   double* distance) noexcept {
+inline NearestSetVoxel nearest_within(const DagView& dag, const int64_t (&point)[3],
+                                      const NearestPath& path, double max_distance,
+                                      double* distance) noexcept {
   // A limit that is not too small: the rounded distance decides.
   const double units = max_distance / dag.voxel_size * (1 << kNearestBits);
   const double square = units * units * (1 + 1e-9) + 1;
-  const NearestVoxel nearest =
+  const NearestSetVoxel nearest =
       nearest_voxel(dag, point, path, square < 1e37 ? NearestSquare(square) : kNoLimit);
   *distance = nearest.distance() * dag.voxel_size;
-  return nearest.found && *distance <= max_distance ? nearest : NearestVoxel{};
+  return nearest.found && *distance <= max_distance ? nearest : NearestSetVoxel{};
 }
 
 // The same for a point of the world.
-inline NearestVoxel nearest_in_world(const DagView& dag, const double (&world)[3],
-                                     double max_distance, double* distance) noexcept {
+inline NearestSetVoxel nearest_in_world(const DagView& dag, const double (&world)[3],
+                                        double max_distance, double* distance) noexcept {
   int64_t point[3];
   if (!snap_for_nearest(dag, world, point)) return {};
   NearestPath path;

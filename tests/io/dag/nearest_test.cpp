@@ -20,8 +20,9 @@ uint64_t morton_of(uint32_t x, uint32_t y, uint32_t z) {
   return code;
 }
 
-NearestVoxel nearest_of_all(const VoxelSet& set, const int64_t (&point)[3], NearestSquare limit) {
-  NearestVoxel best;
+NearestSetVoxel nearest_of_all(const VoxelSet& set, const int64_t (&point)[3],
+                               NearestSquare limit) {
+  NearestSetVoxel best;
   for (const auto& [x, y, z] : set) {
     const int64_t voxel[3] = {x, y, z};
     NearestSquare square = 0;
@@ -42,7 +43,7 @@ NearestVoxel nearest_of_all(const VoxelSet& set, const int64_t (&point)[3], Near
   return best;
 }
 
-void expect_same(const NearestVoxel& found, const NearestVoxel& expected) {
+void expect_same(const NearestSetVoxel& found, const NearestSetVoxel& expected) {
   ASSERT_EQ(found.found, expected.found);
   if (!found.found) return;
   ASSERT_TRUE(found.square == expected.square);
