@@ -34,6 +34,7 @@ namespace svdag {
 namespace {
 
 using Bools = nb::ndarray<nb::numpy, bool>;
+using Bytes = nb::ndarray<nb::numpy, uint8_t>;
 using Ints = nb::ndarray<nb::numpy, int32_t>;
 using Doubles = nb::ndarray<nb::numpy, double>;
 template <class T>
@@ -100,6 +101,17 @@ Array owned(std::unique_ptr<T[]>&& values, std::initializer_list<size_t> shape) 
   return Array(kept, shape, owner);
 }
 
+// Zeros for an array: the system clears them when they are first used.
+struct Zeros {
+  explicit Zeros(size_t size)
+      : bytes(static_cast<uint8_t*>(std::calloc(std::max<size_t>(1, size), 1))) {
+    if (bytes == nullptr) throw std::bad_alloc();
+    owner = nb::capsule(bytes, [](void* p) noexcept { std::free(p); });
+  }
+  uint8_t* bytes;
+  nb::capsule owner;
+};
+
 // A path, whose bytes need not be UTF-8.
 std::string string_of(const nb::bytes& bytes) {
   return {bytes.c_str(), bytes.size()};
@@ -145,15 +157,33 @@ class PyFile {
   }
 
   Bools window(const Corner& low, const Corner& high, uint32_t level, int layer) const {
-    const size_t n[3] = {size_t(high[0] - low[0]), size_t(high[1] - low[1]),
-                         size_t(high[2] - low[2])};
-    auto* const voxels =
-        static_cast<uint8_t*>(std::calloc(std::max<size_t>(1, n[0] * n[1] * n[2]), 1));
-    if (voxels == nullptr) throw std::bad_alloc();
-    const nb::capsule owner(voxels, [](void* p) noexcept { std::free(p); });
+    const std::array<size_t, 3> n = size_of(low, high);
+    const Zeros zeros(n[0] * n[1] * n[2]);
     const DagView dag = view(layer);
-    interruptible([&] { fill_window(dag, level, box_of(low, high), voxels, executor_.get()); });
-    return Bools(voxels, {n[0], n[1], n[2]}, owner);
+    interruptible(
+        [&] { fill_window(dag, level, box_of(low, high), zeros.bytes, executor_.get()); });
+    return Bools(zeros.bytes, {n[0], n[1], n[2]}, zeros.owner);
+  }
+
+  Bytes window_colours(const Corner& low, const Corner& high, uint32_t level, const Rgb& fill) {
+    const std::array<size_t, 3> n = size_of(low, high);
+    const Zeros zeros(n[0] * n[1] * n[2] * sizeof(Rgb));
+    auto* const out = reinterpret_cast<Rgb*>(zeros.bytes);
+    interruptible([&] {
+      if (fill != Rgb{}) std::fill_n(out, n[0] * n[1] * n[2], fill);
+      fill_window_colours(colours(), level, box_of(low, high), out, executor_.get());
+    });
+    return Bytes(zeros.bytes, {n[0], n[1], n[2], 3}, zeros.owner);
+  }
+
+  template <class T>
+  Bytes colours_of(const Rows<T>& points, uint32_t level, const Rgb& fill) {
+    const size_t n = points.shape(0);
+    std::vector<Rgb> found(n, fill);
+    const std::span rows(reinterpret_cast<const std::array<T, 3>*>(points.data()), n);
+    interruptible(
+        [&] { look_up_colours(colours().view(), level, rows, found.data(), executor_.get()); });
+    return owned<Bytes>(std::move(found), {n, 3});
   }
 
   Ints coords(const Corner& low, const Corner& high, uint32_t level, int layer) const {
@@ -189,6 +219,19 @@ class PyFile {
     interruptible([&] { look_up(view(layer), rows, set.data(), executor_.get()); });
     const size_t n = set.size();
     return owned<Bools>(std::move(set), {n});
+  }
+
+  template <class T>
+  std::tuple<Ints, Doubles> nearest(const Rows<T>& points, double max_distance, int layer) const {
+    const size_t n = points.shape(0);
+    std::vector<std::array<int32_t, 3>> voxels(n);
+    std::vector<double> distances(n);
+    const std::span rows(reinterpret_cast<const std::array<T, 3>*>(points.data()), n);
+    interruptible([&] {
+      find_nearest(view(layer), rows, max_distance, voxels.data(), distances.data(),
+                   executor_.get());
+    });
+    return {owned<Ints>(std::move(voxels), {n, 3}), owned<Doubles>(std::move(distances), {n})};
   }
 
   bool box_occupied(const Corner& low, const Corner& high, int layer) const {
@@ -277,6 +320,16 @@ class PyFile {
   }
 
  private:
+  static std::array<size_t, 3> size_of(const Corner& low, const Corner& high) {
+    return {size_t(high[0] - low[0]), size_t(high[1] - low[1]), size_t(high[2] - low[2])};
+  }
+
+  const DagColours& colours() {
+    const std::lock_guard lock(mutex_);
+    if (!colours_) colours_.emplace(*file_, &budget_);
+    return *colours_;
+  }
+
   // `layer`: its number; -1: the file's default.
   DagView view(int layer) const {
     return layer < 0 ? file_->view() : file_->view_of(size_t(layer));
@@ -291,7 +344,9 @@ class PyFile {
   }
 
   std::optional<DagFile> file_;
-  std::optional<LayerIndex> index_;  // made by the first trace() that needs it, under mutex_
+  MemoryBudget budget_{default_memory_limit()};
+  std::optional<LayerIndex> index_;    // made by the first call that needs it, under mutex_
+  std::optional<DagColours> colours_;  // the same
   std::mutex mutex_;
   std::unique_ptr<ParallelExecutor> executor_;
 };
@@ -360,11 +415,16 @@ NB_MODULE(_svdag, m) {
            nb::arg("path"), nb::arg("layers"), nb::arg("level").none(), nb::arg("bounds").none())
       .def("info", &PyFile::info)
       .def("window", &PyFile::window)
+      .def("window_colours", &PyFile::window_colours)
+      .def("colours_voxels", &PyFile::colours_of<int64_t>)
+      .def("colours_points", &PyFile::colours_of<double>)
       .def("coords", &PyFile::coords)
       .def("ball", &PyFile::ball)
       .def("bricks", &PyFile::bricks)
       .def("occupied_voxels", &PyFile::occupied<int64_t>)
       .def("occupied_points", &PyFile::occupied<double>)
+      .def("nearest_voxels", &PyFile::nearest<int64_t>)
+      .def("nearest_points", &PyFile::nearest<double>)
       .def("box_occupied", &PyFile::box_occupied)
       .def("count", &PyFile::count)
       .def("occupied_box", &PyFile::occupied_box)

@@ -1,4 +1,4 @@
-// Queries of the Python module: windows, lists, points, boxes and rays, on many threads.
+// Queries of the Python module: windows, lists, points, boxes, rays and colours, on many threads.
 //
 // All functions check for interrupts at least ten times a second. Coordinates are in voxels of the
 // requested level, and may be outside of the grid.
@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "io/dag/colours/dag_colours.h"
 #include "io/dag/cube_walk.h"
 #include "streaming/process/executor.h"
 #include "verify/trace/kernel/rays.h"
@@ -44,6 +45,29 @@ void look_up(const DagView& dag, std::span<const std::array<int64_t, 3>> points,
 // The same for points of the world.
 void look_up(const DagView& dag, std::span<const std::array<double, 3>> points, uint8_t* set,
              Executor* executor);
+
+using Rgb = std::array<uint8_t, 3>;
+// out[i] gets the colour of the cube of level `level` that holds points[i]. It keeps its value
+// where the cube has no set voxel, or no colour.
+void look_up_colours(const ColourView& colours, uint32_t level,
+                     std::span<const std::array<int64_t, 3>> points, Rgb* out, Executor* executor);
+// The same for points of the world.
+void look_up_colours(const ColourView& colours, uint32_t level,
+                     std::span<const std::array<double, 3>> points, Rgb* out, Executor* executor);
+// The same for all cubes of level `level` in `box`, in the order of fill_window().
+void fill_window_colours(const DagColours& colours, uint32_t level, const VoxelBox& box, Rgb* out,
+                         Executor* executor);
+
+// The voxels nearest to points (io/dag/nearest.h), and the distances in world units. -1 and
+// infinite where there is none within `max_distance`. A point that is a voxel stands for its
+// middle.
+void find_nearest(const DagView& dag, std::span<const std::array<int64_t, 3>> points,
+                  double max_distance, std::array<int32_t, 3>* voxels, double* distances,
+                  Executor* executor);
+// The same for points of the world.
+void find_nearest(const DagView& dag, std::span<const std::array<double, 3>> points,
+                  double max_distance, std::array<int32_t, 3>* voxels, double* distances,
+                  Executor* executor);
 
 // Whether a voxel of `box` is set.
 bool any_in_box(const DagView& dag, const VoxelBox& box);

@@ -3,6 +3,7 @@
 // The command line is parsed to a Command (builder/commands/options.h); main() visits it.
 #pragma once
 
+#include <limits>
 #include <set>
 #include <string>
 #include <variant>
@@ -113,6 +114,8 @@ struct InfoCommand {
 // svdag query FILE < POINTS.
 struct QueryCommand {
   std::string file;
+  bool nearest = false;  // find the nearest voxel instead of that at the point
+  double max_distance = std::numeric_limits<double>::infinity();  // of it, in world units
 };
 
 // svdag edit A [B].

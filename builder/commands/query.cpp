@@ -1,4 +1,5 @@
-// `svdag query FILE.svdag < POINTS`: which points are in a set voxel.
+// `svdag query FILE.svdag < POINTS`: which points are in a set voxel, and its colour; or
+// which voxel is the nearest.
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -7,9 +8,10 @@
 #include <string>
 
 #include "builder/commands/commands.h"
+#include "io/dag/colours/dag_colours.h"
 #include "io/dag/cube_at.h"
 #include "io/dag/dag_file.h"
-#include "io/dag/occupied_bounds.h"
+#include "io/dag/nearest.h"
 #include "io/dag/open_dag.h"
 #include "io/lattice.h"
 #include "io/units.h"
@@ -67,29 +69,75 @@ std::optional<LatticePoint> voxel_of(const Lattice& lattice, const Grid& grid, c
   return voxel;
 }
 
-void print_cube(const DagFile& file, const Grid& grid, const LatticePoint& voxel) {
-  const CubeAt cube = cube_at(file.view(), voxel);
-  const LatticePoint end = cube.min + (int64_t(1) << (grid.levels - cube.level));
-  const Box box = world_box(grid, {cube.min, end});
-  std::printf("%s %d  %.17g %.17g %.17g  %.17g %.17g %.17g\n", cube.set ? "set" : "empty",
-              cube.level, box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z);
+// "  #rrggbb", or "  none".
+void print_colour(const ColourView& colours, const LatticePoint& voxel) {
+  const uint32_t colour = svdag_colour(colours, colours.dag.levels, uint32_t(voxel.x),
+                                       uint32_t(voxel.y), uint32_t(voxel.z));
+  if (colour == kNoColour) {
+    std::printf("  none");
+  } else {
+    std::printf("  #%02x%02x%02x", colour & 255, colour >> 8 & 255, colour >> 16);
+  }
+}
+
+// What answers points.
+struct QuerySource {
+  DagFile file;
+  Grid grid = file.grid();
+  Lattice lattice{grid};
+  std::optional<DagColours> colours;  // of a file that has them
+};
+
+// The box of voxels `min` to `end` - 1.
+void print_box(const Grid& grid, const LatticePoint& min, const LatticePoint& end) {
+  const Box box = world_box(grid, {min, end});
+  std::printf("  %.17g %.17g %.17g  %.17g %.17g %.17g", box.min.x, box.min.y, box.min.z, box.max.x,
+              box.max.y, box.max.z);
+}
+
+void print_cube(const QuerySource& source, const Point& point) {
+  const auto voxel = voxel_of(source.lattice, source.grid, point);
+  if (!voxel) {
+    std::printf("outside");
+    return;
+  }
+  const CubeAt cube = cube_at(source.file.view(), *voxel);
+  std::printf("%s %d", cube.set ? "set" : "empty", cube.level);
+  print_box(source.grid, cube.min, cube.min + (int64_t(1) << (source.grid.levels - cube.level)));
+  if (cube.set && source.colours) print_colour(source.colours->view(), *voxel);
+}
+
+void print_nearest(const QuerySource& source, const Point& point, double max_distance) {
+  double distance = 0;
+  const NearestSetVoxel nearest =
+      nearest_in_world(source.file.view(), {point.x, point.y, point.z}, max_distance, &distance);
+  if (!nearest.found) {
+    std::printf("none");
+    return;
+  }
+  const LatticePoint voxel(nearest.voxel[0], nearest.voxel[1], nearest.voxel[2]);
+  std::printf("near %.17g", distance);
+  print_box(source.grid, voxel, voxel + int64_t(1));
+  if (source.colours) print_colour(source.colours->view(), voxel);
 }
 
 }  // namespace
 
 int run(const QueryCommand& command) {
-  const DagFile file = open_dag(command.file);
-  const Grid grid = file.grid();
-  const Lattice lattice(grid);
+  MemoryBudget budget(default_memory_limit());
+  QuerySource source{.file = open_dag(command.file)};
+  if (source.file.has_colours()) source.colours.emplace(source.file, &budget);
   std::string line;
   for (uint64_t number = 1; read_line(number, &line); ++number) {
     check_interrupt();
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    if (const auto voxel = voxel_of(lattice, grid, parse_point(line, number))) {
-      print_cube(file, grid, *voxel);
+    const Point point = parse_point(line, number);
+    if (command.nearest) {
+      print_nearest(source, point, command.max_distance);
     } else {
-      std::puts("outside");
+      print_cube(source, point);
     }
+    std::putchar('\n');
   }
   return int(ExitCode::kOk);
 }

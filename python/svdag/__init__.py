@@ -8,6 +8,7 @@
 Voxel coordinates are integers from 0 to resolution - 1, in the order x, y, z; world coordinates are those of the scene.
 What fails raises svdag.Error.
 """
+import functools as _functools
 import json as _json
 import operator as _operator
 import os as _os
@@ -41,18 +42,27 @@ class Layer(NamedTuple):
     voxels: int
 
 
-class Hits(NamedTuple):
+class _Hits(NamedTuple):
+    t: NDArray
+    voxel: NDArray
+    normal: NDArray
+    layer: NDArray
+
+
+class Hits(_Hits):
     """What n rays hit first.
 
     t: (n,) float64, in units of the direction's length; infinite where nothing is hit.
     voxel: (n, 3) int32; -1 where nothing is hit.
     normal: (n, 3) int8, of the face through which the ray enters the voxel; 0 where nothing is hit.
     layer: (n,) int32, the first layer that holds the voxel; -1 without one.
+    colour: (n, 3) uint8, of the voxel, as File.colours() finds it at the first use.
     """
-    t: NDArray
-    voxel: NDArray
-    normal: NDArray
-    layer: NDArray
+    _file: "File"
+
+    @_functools.cached_property
+    def colour(self) -> NDArray:
+        return self._file.colours(self.voxel)
 
 
 def _rows(values: ArrayLike, dtype: Any, name: str) -> NDArray:
@@ -62,6 +72,14 @@ def _rows(values: ArrayLike, dtype: Any, name: str) -> NDArray:
     if array.ndim != 2 or array.shape[1] != 3:
         raise ValueError(f"{name}: has the shape {array.shape}, not (n, 3)")
     return _np.ascontiguousarray(array, dtype)
+
+
+def _points(values: ArrayLike) -> NDArray:
+    """Rows of integers, which are voxels, or of floats, which are of the world."""
+    array = _np.asarray(values)
+    if array.dtype == _np.uint64:
+        array = _np.minimum(array, 2 ** 62)
+    return _rows(array, _np.int64 if array.dtype.kind in "iu" else _np.float64, "points")
 
 
 def _triple(values: Any, name: str, to: Any = _operator.index) -> tuple:
@@ -160,10 +178,27 @@ class File:
             raise ValueError(f"level {number} is not 3 to {self.levels}")
         return number
 
+    def _fill(self, fill: Sequence[int]) -> tuple:
+        if "colours" not in self.metadata:
+            raise ValueError(f"{self.path}: has no colours: svdag colour FILE SCENE... adds them")
+        colour = _triple(fill, "fill")
+        if not all(0 <= c <= 255 for c in colour):
+            raise ValueError(f"fill: {colour} is not three numbers from 0 to 255")
+        return colour
+
     def _box(self, lo: Optional[Corner], hi: Optional[Corner], level: int) -> Tuple[tuple, tuple]:
         low = (0, 0, 0) if lo is None else _triple(lo, "lo")
         high = (2 ** level,) * 3 if hi is None else _triple(hi, "hi")
         return low, tuple(max(a, b) for a, b in zip(low, high))
+
+    def _window(self, lo: Corner, hi: Corner, level: int) -> Tuple[tuple, tuple]:
+        low, high = self._box(lo, hi, level)
+        size = 1
+        for a, b in zip(low, high):
+            size *= b - a
+        if size > 2 ** 44:
+            raise MemoryError(f"a window of {size:,} voxels")
+        return low, high
 
     def window(self, lo: Corner, hi: Corner, level: Optional[int] = None, layer: Union[None, int, str] = None) -> NDArray:
         """The voxels lo .. hi - 1 as a bool array in C order, axes x, y, z. What is outside of the grid is False.
@@ -172,13 +207,12 @@ class File:
         cubes of this level. layer: name or number; by default all.
         """
         at = self._level(level)
-        low, high = self._box(lo, hi, at)
-        size = 1
-        for a, b in zip(low, high):
-            size *= b - a
-        if size > 2 ** 44:
-            raise MemoryError(f"a window of {size:,} voxels")
-        return self._open().window(low, high, at, self._layer(layer))
+        return self._open().window(*self._window(lo, hi, at), at, self._layer(layer))
+
+    def window_colours(self, lo: Corner, hi: Corner, level: Optional[int] = None, fill: Sequence[int] = (0, 0, 0)) -> NDArray:
+        """The colours of the voxels lo .. hi - 1, (x, y, z, 3) uint8 sRGB. Arguments as window() and colours()."""
+        at = self._level(level)
+        return self._open().window_colours(*self._window(lo, hi, at), at, self._fill(fill))
 
     def coords(self, lo: Optional[Corner] = None, hi: Optional[Corner] = None, level: Optional[int] = None,
                layer: Union[None, int, str] = None) -> NDArray:
@@ -222,13 +256,33 @@ class File:
 
         Integers are voxel coordinates, floats are world coordinates. What is outside of the grid is False.
         """
-        array = _np.asarray(points)
-        number = self._layer(layer)
-        if array.dtype.kind in "iu":
-            if array.dtype == _np.uint64:
-                array = _np.minimum(array, 2 ** 62)
-            return self._open().occupied_voxels(_rows(array, _np.int64, "points"), number)
-        return self._open().occupied_points(_rows(array, _np.float64, "points"), number)
+        rows, file = _points(points), self._open()
+        return (file.occupied_voxels if rows.dtype.kind == "i" else file.occupied_points)(rows, self._layer(layer))
+
+    def colours(self, points: ArrayLike, level: Optional[int] = None, fill: Sequence[int] = (0, 0, 0)) -> NDArray:
+        """The colours of the voxels that hold (n, 3) points, (n, 3) uint8 sRGB. Points as occupied().
+
+        level: 3 .. levels; that of voxels by default. A coarser cube has the mean colour of its voxels; integers count cubes of
+        this level. fill: what a point gets that is not in a set voxel, or in one without a colour (full cubes inside a solid).
+        ValueError if the file has no colours.
+        """
+        at, colour = self._level(level), self._fill(fill)
+        rows, file = _points(points), self._open()
+        return (file.colours_voxels if rows.dtype.kind == "i" else file.colours_points)(rows, at, colour)
+
+    def nearest(self, points: ArrayLike, max_distance: float = _np.inf,
+                layer: Union[None, int, str] = None) -> Tuple[NDArray, NDArray]:
+        """The set voxels nearest to (n, 3) points: voxels, (n, 3) int32, and distances, (n,) float64 in world units.
+
+        Floats are world coordinates, integers are voxels and stand for their middles. The distance is that to the closed cube of
+        the voxel, 0 inside. Of several at the same distance, the first in the order of coords(). -1 and infinite where no voxel is
+        within max_distance (world units). Exact for the point rounded to 2^-23 voxel; at most 2^36 voxels from the grid's corner.
+        """
+        limit = float(max_distance)
+        if not limit >= 0:
+            raise ValueError("nearest: max_distance must be 0 or more")
+        rows, file = _points(points), self._open()
+        return (file.nearest_voxels if rows.dtype.kind == "i" else file.nearest_points)(rows, limit, self._layer(layer))
 
     def box_occupied(self, lo: Corner, hi: Corner, layer: Union[None, int, str] = None) -> bool:
         """Whether any of the voxels lo .. hi - 1 is set."""
@@ -251,7 +305,9 @@ class File:
         d = _rows(_np.atleast_2d(directions), _np.float64, "directions")
         if not tmax >= 0:
             raise ValueError("trace: tmax must be 0 or more")
-        return Hits(*self._open().trace(o, d, min(float(tmax), 1e300), self._layer(layer)))
+        hits = Hits(*self._open().trace(o, d, min(float(tmax), 1e300), self._layer(layer)))
+        hits._file = self
+        return hits
 
 
 def open(path: PathLike, layers: Sequence[str] = (), level: Optional[int] = None,  # noqa: A001

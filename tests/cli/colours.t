@@ -38,6 +38,17 @@ $ paint_dag plain.svdag other.svdag 6 9 && svdag-verify diff painted.svdag other
 | colours   different
 | same
 
+## colours_query
+# svdag query prints the colour of a set voxel: that of the cube of the colour level around it. Other lines are as without.
+$ printf 'OFF\n3 1 0\n0 0 0\n10 0 0\n10 10 10\n3 0 1 2\n' > t.off && svdag build t.off -s 1 -q -o t.svdag && paint_dag t.svdag p.svdag 4 9
+$ printf '5 0 0\n9 5 5\n0 10 0\n-99 9 9\n' | svdag query p.svdag
+| set 5  4.5 -0.5 -0.5  5.5 0.5 0.5  #d3dfe7
+| set 5  8.5 4.5 4.5  9.5 5.5 5.5  #c3499e
+| empty 2  -7.5 8.5 -7.5  0.5 16.5 0.5
+| outside
+$ paint_dag p.svdag | grep '^5 24 20 20'
+| 5 24 20 20 c3499e
+
 ## colours_kept
 # Parts and coarser levels have the colours that their cubes had; packs have all.
 $ svdag-scene city -n 2K -q -o city.ply && svdag-scene scan -n 2K -q -o scan.ply

@@ -116,6 +116,26 @@ $ svdag query t.svdag < .
 $ printf '5 0 0' | svdag query t.svdag
 | set 5  4.5 -0.5 -0.5  5.5 0.5 0.5
 
+## query_nearest
+# The nearest voxel, its distance in world units and its box; points may be outside of the grid.
+$ printf 'OFF\n3 1 0\n0 0 0\n10 0 0\n10 10 10\n3 0 1 2\n' > t.off
+$ svdag build t.off -s 1 -q -o t.svdag
+$ printf '5 0 0\n5 -3 0\n5 5 5\n-100 0 0\n1e300 0 0\n' | svdag query t.svdag --nearest
+| near 0  4.5 -0.5 -0.5  5.5 0.5 0.5
+| near 2.5  4.5 -0.5 -0.5  5.5 0.5 0.5
+| near 0  4.5 4.5 4.5  5.5 5.5 5.5
+| near 99.5  -0.5 -0.5 -0.5  0.5 0.5 0.5
+| none
+$ printf '5 -3 0\n5 -3.5 0\n' | svdag query t.svdag --nearest --max-distance 2.5
+| near 2.5  4.5 -0.5 -0.5  5.5 0.5 0.5
+| none
+$ echo 1 2 3 | svdag query t.svdag --max-distance 1
+! svdag: --max-distance requires --nearest; see svdag query --help
+? 2
+$ echo 1 2 3 | svdag query t.svdag --nearest --max-distance=-1
+! svdag: --max-distance: must be 0 or more
+? 2
+
 ## view
 # The viewer's page as a folder, and what cannot be served.
 $ printf 'OFF\n3 1 0\n0 0 0\n10 0 0\n10 10 10\n3 0 1 2\n' > t.off

@@ -140,6 +140,50 @@ class Reading(Files):
             near = self.coords[(off ** 2).sum(1) <= radius ** 2]
             np.testing.assert_array_equal(np.unique(file.sphere(center, radius).reshape(-1, 3), axis=0), near)
 
+    def nearest_of_all(self, coords, points):
+        """The numbers and distances, in voxels, of the nearest voxels; of several, the first."""
+        numbers, distances = [], []
+        for point in points:
+            off = np.maximum(np.maximum(coords - point, point - (coords + 1)), 0)
+            squares = (off ** 2).sum(1)
+            numbers.append(squares.argmin())
+            distances.append(np.sqrt(squares.min()))
+        return np.array(numbers), np.array(distances)
+
+    def test_the_nearest_voxel_is_that_of_a_search_of_all(self):
+        points = np.vstack([self.random.uniform(-100, 350, (150, 3)), self.random.uniform(60, 90, (150, 3))])
+        points = np.round(points * 1024) / 1024
+        voxels = self.random.integers(-9, 250, (200, 3))
+        for file in self.every():
+            coords = file.coords()
+            for given, middles in [(file.origin + points * file.voxel_size, points), (voxels, voxels + 0.5)]:
+                numbers, distances = self.nearest_of_all(coords, middles)
+                found, away = file.nearest(given)
+                self.assertEqual((found.dtype, away.dtype), (np.int32, np.float64))
+                np.testing.assert_array_equal(found, coords[numbers])
+                np.testing.assert_allclose(away, distances * file.voxel_size, rtol=1e-12, atol=0)
+                limit = float(np.median(away))
+                found, within = file.nearest(given, max_distance=limit)
+                np.testing.assert_array_equal(within, np.where(away <= limit, away, np.inf))
+                np.testing.assert_array_equal(found[away > limit], -1)
+            self.assertFalse(np.isfinite(file.nearest([[np.nan, 0, 0], [np.inf, 0, 0], [0, -1e300, 0]])[1]).any())
+            self.assertFalse(np.isfinite(file.nearest(np.array([[2 ** 63, 0, 0]], np.uint64))[1]).any())
+            with self.assertRaises(ValueError):
+                file.nearest([[0, 0, 0]], max_distance=-1)
+        lines = program("svdag", "query", self.plain, "--nearest", text="".join("{} {} {}\n".format(*p) for p in points)).splitlines()
+        away = svdag.open(self.plain).nearest(points)[1]
+        self.assertEqual([float(line.split()[1]) for line in lines], list(away))
+
+    def test_the_nearest_voxel_of_a_layer(self):
+        with svdag.open(self.folder / "layers.svdag") as file:
+            point = file.origin + self.random.uniform(-10, 140, (40, 3)) * file.voxel_size
+            for layer in ("ball", "floor"):
+                coords = file.coords(layer=layer)
+                numbers, distances = self.nearest_of_all(coords, (point - file.origin) / file.voxel_size)
+                found, away = file.nearest(point, layer=layer)
+                np.testing.assert_allclose(away, distances * file.voxel_size, rtol=0, atol=2 ** -22 * file.voxel_size)
+                self.assertTrue(file.occupied(found, layer=layer).all())
+
     def test_bricks_are_all_voxels_in_any_chunk(self):
         for file in self.every():
             for chunk in (1, 7, 1 << 16):
@@ -366,6 +410,91 @@ class Making(Files):
         self.assertEqual(file.count(), len(self.coords))  # all goes on
 
 
+class Colours(unittest.TestCase):
+    """The colours of a file are those of the plain reader of tests, which is written from docs/format.md, and of `svdag query`."""
+
+    @classmethod
+    def setUpClass(cls):
+        sys.path.insert(0, str(SOURCE / "tests" / "io" / "dag"))
+        import read_svdag
+        cls.temporary = tempfile.TemporaryDirectory(prefix="svdag-python-")
+        cls.addClassCleanup(cls.temporary.cleanup)
+        folder = pathlib.Path(cls.temporary.name)
+        points, faces = sphere_mesh()
+        with (folder / "ball.obj").open("w") as file:
+            for point in points:
+                file.write("v {} {} {} {} {} {}\n".format(*point, *((point - [2, 3, 4]) / 2)))
+            file.writelines("f {} {} {}\n".format(*face) for face in faces + 1)
+        svdag.build_files(folder / "ball.obj", folder / "bare.svdag", resolution=64, rule="solid")
+        cls.paths = []
+        for layout in ("plain", "compact"):
+            for level in (6, 5, 3):
+                cls.paths.append(folder / f"{layout}{level}.svdag")
+                svdag.build_files(folder / "ball.obj", cls.paths[-1], resolution=64, rule="solid", colours=True, layout=layout,
+                                  colour_level=level)
+        cls.files = [svdag.open(path) for path in cls.paths]
+        cls.readers = [read_svdag.Svdag(path.read_bytes()) for path in cls.paths]
+        cls.bare = svdag.open(folder / "bare.svdag")
+
+    @staticmethod
+    def expected(reader, window, level, fill):
+        """What each cube of a level shows: its own colour, or that of the next coarser cube that has one."""
+        shown = min(level, reader.K)
+        shown -= (reader.K - shown) % 2
+        colours = np.full((*window.shape, 3), fill, np.uint8)
+        for cube in np.argwhere(window):
+            colour = reader.colours.get((shown, *(int(c) >> level - shown for c in cube)))
+            if colour is not None:
+                colours[tuple(cube)] = list(bytes.fromhex(colour))
+        return colours
+
+    def test_points_and_windows_of_every_level(self):
+        for file, reader in zip(self.files, self.readers):
+            for level in range(3, 7):
+                side, fill = 2 ** level, (1, 2, 3)
+                expected = self.expected(reader, file.window((0,) * 3, (side,) * 3, level=level), level, fill)
+                cubes = np.argwhere(np.ones((side,) * 3))
+                middles = file.origin + (cubes + 0.5) * (file.resolution * file.voxel_size / side)
+                for points in (cubes, cubes.astype(np.uint16), middles):
+                    np.testing.assert_array_equal(file.colours(points, level=level, fill=fill), expected.reshape(-1, 3))
+                np.testing.assert_array_equal(file.window_colours((0,) * 3, (side,) * 3, level=level, fill=fill), expected)
+                window = file.window_colours((-3, 1, 2), (side - 1, side + 5, side), level=level)
+                np.testing.assert_array_equal(window[3:, :-5], file.window_colours((0, 1, 2), (side - 1, side, side), level=level))
+                self.assertFalse(window[:3].any() or window[:, -5:].any())
+            full = file.window((0,) * 3, (64,) * 3) & (file.window_colours((0,) * 3, (64,) * 3) == 0).all(-1)
+            self.assertTrue(reader.K < 5 or full.any())  # the inside of the ball has no colour
+
+    def test_points_are_those_of_query(self):
+        file, path = self.files[0], self.paths[0]
+        points = np.random.default_rng(3).uniform(*file.bounds, (2000, 3))
+        lines = program("svdag", "query", path, text="".join("{!r} {!r} {!r}\n".format(*map(float, p)) for p in points)).splitlines()
+        colours = file.colours(points, fill=(9, 9, 9))
+        for line, colour, is_set in zip(lines, colours, file.occupied(points)):
+            self.assertEqual(line.startswith("set"), is_set)
+            if line.split()[-1].startswith("#"):
+                self.assertEqual(line.split()[-1], "#" + bytes(colour).hex())
+            else:
+                np.testing.assert_array_equal(colour, [9, 9, 9])
+
+    def test_rays_have_the_colour_of_their_voxel(self):
+        file = self.files[1]
+        hits = file.trace(np.random.default_rng(4).uniform([1.5, 2.5, 9], [4.5, 5.5, 9], (500, 3)), [0, 0, -1.0])
+        found = np.isfinite(hits.t)
+        self.assertTrue(found.any() and not found.all())
+        np.testing.assert_array_equal(hits.colour[found], file.colours(hits.voxel[found]))
+        self.assertTrue(hits.colour[found].any(1).all())
+        self.assertFalse(hits.colour[~found].any())
+
+    def test_a_file_without_colours_and_a_wrong_fill_are_refused(self):
+        for call in (lambda: self.bare.colours([[0, 0, 0]]), lambda: self.bare.window_colours((0,) * 3, (8,) * 3),
+                     lambda: self.bare.trace([3, 4, 9], [0, 0, -1.0]).colour):
+            with self.assertRaisesRegex(ValueError, "no colours"):
+                call()
+        for fill in ((0, 0, 256), (-1, 0, 0), (0, 0)):
+            with self.assertRaisesRegex(ValueError, "fill"):
+                self.files[0].colours([[0, 0, 0]], fill=fill)
+
+
 class Refusals(Files):
     def test_errors_have_a_code_a_path_and_the_sentence(self):
         missing = self.folder / "missing.svdag"
@@ -434,7 +563,7 @@ class Refusals(Files):
                   np.ma.zeros((3, 3)), np.full((3, 3), 2 ** 64 - 1, np.uint64), np.zeros((2, 3), "M8[s]"), {}, {"a": 1}, object(), len,
                   np.int64(5), np.float64(2.5), True, slice(3), self.coords[:10], self.coords[:10].astype(float), [[1, 2], [3]]]
         calls = [(f.window, 2, 4) for f in (file, layers)] + [(f.coords, 0, 4) for f in (file, layers)] + [
-            (file.sphere, 2, 3), (layers.sphere, 2, 3), (file.occupied, 1, 2), (layers.occupied, 1, 2), (file.box_occupied, 2, 3),
+            (file.sphere, 2, 3), (layers.sphere, 2, 3), (file.occupied, 1, 2), (layers.occupied, 1, 2), (file.nearest, 1, 3), (layers.nearest, 1, 3), (file.box_occupied, 2, 3),
             (file.count, 0, 4), (layers.count, 0, 4), (file.trace, 2, 4), (layers.trace, 2, 4), (svdag.unpack_bricks, 1, 1),
             (lambda *a: list(file.bricks(*a)), 0, 4), (svdag.open, 1, 1), (svdag.from_array, 2, 2), (svdag.from_coords, 2, 2)]
         outputs = [None, "", 5, "/nonexistent/a", str(self.folder), str(self.folder / "f.svdag"), b"\xff", "\0", "a\0b"]

@@ -21,7 +21,7 @@ def main():
     subprocess.run([sys.executable, "-m", "venv", "--clear", TEST], check=True)
     # What `make wheel` and the tests need. A failure later is not that of the network.
     downloaded = pip("download", "--no-deps", "-d", FOLDER / "downloaded", "scikit-build-core", "nanobind")
-    installed = pip("install", "numpy", "matplotlib")
+    installed = pip("install", "numpy", "matplotlib", "xxhash")
     if downloaded.returncode != 0 or installed.returncode != 0:
         print(f"PyPI cannot be reached: the Python package was not tested\n{downloaded.stderr}{installed.stderr}")
         print("0 passed, 0 failed, 1 skipped")

@@ -37,11 +37,24 @@ void add_query(CLI::App* program, Command* command) {
   CLI::App* app = program->add_subcommand("query", "Look up points in a .svdag");
   auto config = std::make_shared<QueryCommand>();
   takes_files(app->add_option("FILE", config->file, "The .svdag"), {".svdag"})->required();
-  add_examples(app, {"svdag query city.svdag < points.txt"},
-               "Reads points from standard input, one per line: x y z in world units. For each it "
-               "prints \"set\" and the voxel, \"empty\" and the largest empty cube of the octree "
-               "around the point, both as level (of the octree; the last is that of voxels) and "
-               "box, or \"outside\" if the point is not in the grid.");
+  CLI::Option* nearest =
+      app->add_flag("--nearest", config->nearest, "Find the set voxel nearest to each point");
+  const auto read = [=](double given) {
+    if (!(given >= 0)) fail_usage("--max-distance: must be 0 or more");
+    config->max_distance = given;
+  };
+  app->add_option_function<double>("--max-distance", read,
+                                   "Find voxels up to this distance, in world units")
+      ->type_name("D")
+      ->needs(nearest);
+  add_examples(
+      app, {"svdag query city.svdag < points.txt", "svdag query city.svdag --nearest < points.txt"},
+      "Reads points from standard input, one per line: x y z in world units. For each it "
+      "prints \"set\" and the voxel, \"empty\" and the largest empty cube of the octree "
+      "around the point, both as level (of the octree; the last is that of voxels) and "
+      "box, or \"outside\" if the point is not in the grid. With --nearest it prints "
+      "\"near\", the distance to the closed cube of the nearest voxel, and its box, or "
+      "\"none\". In a file with colours, that of a voxel follows, \"#rrggbb\" or \"none\".");
   app->allow_extras();  // points, most likely
   app->preparse_callback([=](size_t) { *config = {}; });
   app->callback([=] {

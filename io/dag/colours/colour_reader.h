@@ -1,6 +1,7 @@
 // The decoded colours of a file, read by ascending numbers: each chunk is decoded once.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "io/dag/colours/chunk_codec.h"
@@ -12,8 +13,13 @@ class ColourReader {
  public:
   ColourReader(const ColourView& view, uint64_t count) : view_(view), count_(count) {}
 
+  // Skipped entries cost a binary search.
   void advance(uint64_t number) {
-    while (entry_ + 1 < view_.entry_count && view_.entries[entry_ + 1].first <= number) ++entry_;
+    if (number < entry_end()) return;
+    const ColourEntry *const begin = view_.entries + entry_ + 1, *const end = view_.entries +
+                                                                              view_.entry_count;
+    const auto is_before = [](uint64_t n, const ColourEntry& entry) { return n < entry.first; };
+    entry_ = uint64_t(std::upper_bound(begin, end, number, is_before) - view_.entries) - 1;
   }
   // Of the entry of the current number.
   const ColourEntry& entry() const { return view_.entries[entry_]; }

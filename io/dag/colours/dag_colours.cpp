@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "streaming/error.h"
+#include "streaming/process/interrupt.h"
 
 namespace svdag {
 namespace {
@@ -40,6 +41,7 @@ void ColourCountTables::fill(uint32_t level) {
   void* const counts = memory_[level].get();
   const uint32_t bytes = counts_.levels[level].bytes;
   for (uint64_t i = 0; i < dag_.index_end[level]; i = dag_next(dag_, level, i)) {
+    if (i % 4096 < 2) check_interrupt();
     const uint64_t count = count_of_children(level, uint32_t(i));
     const uint64_t slot = ColourCounts::slot(dag_.layout, i);
     switch (bytes) {

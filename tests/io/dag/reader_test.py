@@ -14,8 +14,8 @@ import xxhash
 PROGRAMS = pathlib.Path(sys.argv.pop(1)).resolve()
 
 
-def run(program, *arguments):
-    done = subprocess.run([PROGRAMS / program, *map(str, arguments)], capture_output=True, text=True)
+def run(program, *arguments, text=""):
+    done = subprocess.run([PROGRAMS / program, *map(str, arguments)], input=text, capture_output=True, text=True)
     if done.returncode != 0:
         raise AssertionError(f"{program} {arguments}: {done.stderr}")
     return done.stdout
@@ -164,6 +164,15 @@ class Reader(unittest.TestCase):
                         self.assertEqual(file.without_colours(), bare)
                         self.assertEqual(file.colours, self.shown(painted, range(level, -1, -2)))
                         self.assertGreater(len(file.colours), 0)
+                        self.expect_colours_of_query(painted, file)
+
+    def expect_colours_of_query(self, painted, file):
+        """`svdag query` prints the colour of each voxel's cube of level K."""
+        voxels = file.voxels().tolist()[::7]
+        middles = [[c + (v + 0.5) * file.voxel_size for c, v in zip(file.corner, voxel)] for voxel in voxels]
+        lines = run("svdag", "query", painted, text="".join(f"{x!r} {y!r} {z!r}\n" for x, y, z in middles)).splitlines()
+        expected = [file.colours.get((file.K, *(v >> file.L - file.K for v in voxel))) for voxel in voxels]
+        self.assertEqual([line.split()[-1] for line in lines], [f"#{colour}" if colour else "none" for colour in expected])
 
     def test_both_readers_reject_damaged_colours(self):
         dag = self.bake("city", 1200, "-r", "32")
