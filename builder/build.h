@@ -68,6 +68,9 @@ struct SceneFile {
 // The description_hash of the report that this bake would give. Reads all files of the scene.
 std::string description_hash_of(const BuildConfig& config);
 
+// Error (kUsage) if the file of the bake cannot have the colours that it is to have.
+void check_colours(const BuildConfig& config);
+
 // What a phase took.
 struct PhaseUse {
   double seconds = 0;
@@ -79,6 +82,7 @@ struct ColourReport : ColourPassReport {
   Header header{};
   bool resumed = false;
   double seconds = 0;
+  uint64_t scratch = 0;  // peak in bytes, of a pass over a file
 };
 
 struct BuildReport {

@@ -345,11 +345,15 @@ std::string description_hash_of(const BuildConfig& config) {
   return hash_of_description(describe(config, scene_files(scene)));
 }
 
-BuildReport build(const BuildConfig& config, Executor* executor, Progress* progress) {
+void check_colours(const BuildConfig& config) {
   if (config.colours && (config.part || names_run(config.output)))
     fail_usage("--colours: runs have none: merge them first, then use svdag colour");
   if (config.colours && !config.with_union)
     fail_usage("--colours: they belong to the union: leave --no-union and --frames out");
+}
+
+BuildReport build(const BuildConfig& config, Executor* executor, Progress* progress) {
+  check_colours(config);
   if (config.part && !names_run(config.output))
     fail_usage(config.output + ": a part of a grid is a run: choose an output that ends in .run");
   try {

@@ -32,9 +32,8 @@ void check_file(const ColourFileConfig& config, const DagFile& file) {
   check_colour_level(config.pass, file.grid().levels);
 }
 
-}  // namespace
-
-ColourReport colour_file(const ColourFileConfig& config, Executor* executor, Progress* progress) {
+ColourReport colour_resumably(const ColourFileConfig& config, Executor* executor,
+                              Progress* progress) {
   LapTimer total;
   Workspace workspace(ScratchDir::path_for(config.output, config.scratch), config.memory,
                       executor->workers());
@@ -58,8 +57,22 @@ ColourReport colour_file(const ColourFileConfig& config, Executor* executor, Pro
     checkpoint.discard();
   });
   progress->finish();
+  report.scratch = workspace.scratch()->peak_bytes();
   report.seconds = total.lap();
   return report;
+}
+
+}  // namespace
+
+ColourReport colour_file(const ColourFileConfig& config, Executor* executor, Progress* progress) {
+  try {
+    return colour_resumably(config, executor, progress);
+  } catch (const InvalidScratch&) {
+    if (config.unfinished != Unfinished::kResumeSame) throw;
+  }
+  ColourFileConfig fresh = config;
+  fresh.unfinished = Unfinished::kRestart;
+  return colour_resumably(fresh, executor, progress);
 }
 
 }  // namespace svdag

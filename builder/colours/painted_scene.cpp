@@ -86,6 +86,7 @@ void SceneReader::paint_corners(const TriangleBatch& batch, size_t k, uint32_t p
 }
 
 void SceneReader::keep(const PaintedTriangle& t) {
+  if (out_.visit) return out_.visit(t);
   if (out_.bins) return out_.bins->add(t);
   if (out_.triangles.size() == max_triangles_) {
     out_.bins.emplace(grid_.levels, Cube(), bin_depth_, workspace_.scratch());

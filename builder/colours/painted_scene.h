@@ -1,6 +1,7 @@
 // A scene with what colours it, snapped: triangles in memory, or in bins if they are many.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -20,6 +21,8 @@ struct PaintedScene {
   std::vector<PaintedTriangle> triangles;
   MemoryBudget::Reservation memory;  // of `triangles`, prepared
   std::optional<PaintedBins> bins;
+  // If set, is called with each triangle that meets the grid, and none is kept.
+  std::function<void(const PaintedTriangle&)> visit;
   LatticeBox box;  // of the triangles that meet the grid
   bool is_empty = true;
   TexelDensity density;

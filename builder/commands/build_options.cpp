@@ -46,20 +46,6 @@ struct BakeOptions {
   bool dry_run = false;
 };
 
-// --colours, and the options of its pass.
-void add_colours(CLI::App* app, std::optional<ColourPassConfig>* colours) {
-  const auto pass = [colours]() -> ColourPassConfig& {
-    if (!*colours) colours->emplace();
-    return **colours;
-  };
-  const bool is_default = colours->has_value();  // of the batch
-  CLI::Option* const flag = app->add_flag_callback(
-      "--colours", [pass] { pass(); }, "Also add the colours of the scene, as svdag colour does");
-  for (CLI::Option* option : add_colour_options(app, pass)) {
-    if (!is_default) option->needs(flag);
-  }
-}
-
 void add_cache_options(CLI::App* app, CellCacheConfig* config) {
   CLI::Option* cache =
       takes_folder(

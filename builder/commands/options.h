@@ -6,6 +6,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 
 #include "builder/commands/commands.h"
 
@@ -51,6 +52,8 @@ void add_resume_options(CLI::App* app, Unfinished* unfinished, double* checkpoin
 // Adds --colour-level and --colour-error, and returns them. `pass`: where they are set.
 std::array<CLI::Option*, 2> add_colour_options(CLI::App* app,
                                                const std::function<ColourPassConfig&()>& pass);
+// Adds --colours, with these.
+void add_colours(CLI::App* app, std::optional<ColourPassConfig>* colours);
 // Adds --checkpoint.
 CLI::Option* add_checkpoint(CLI::App* app, double* seconds);
 // Adds --frames; before the grid and layer options.

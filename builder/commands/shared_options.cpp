@@ -137,6 +137,19 @@ std::array<CLI::Option*, 2> add_colour_options(CLI::App* app,
   return {level, error};
 }
 
+void add_colours(CLI::App* app, std::optional<ColourPassConfig>* colours) {
+  const auto pass = [colours]() -> ColourPassConfig& {
+    if (!*colours) colours->emplace();
+    return **colours;
+  };
+  const bool is_default = colours->has_value();  // of the batch
+  CLI::Option* const flag = app->add_flag_callback(
+      "--colours", [pass] { pass(); }, "Also add the colours of the scene, as svdag colour does");
+  for (CLI::Option* option : add_colour_options(app, pass)) {
+    if (!is_default) option->needs(flag);
+  }
+}
+
 void add_frames(CLI::App* app, BuildConfig* build) {
   add_frames(app, &build->scene, [build] {
     build->layers = LayerKind::kFrame;

@@ -28,7 +28,8 @@ std::string hash_of_dag(const std::string& path, bool thorough) {
     file.read_at(0, std::as_writable_bytes(std::span(&header, 1)));
     if (header.file_bytes != file.size()) fail_input(path, "is truncated");
   }
-  return to_hex(header.content_hash);
+  const std::string hash = to_hex(header.content_hash);
+  return has_colours(header) ? hash + "+" + to_hex(header.colour_hash) : hash;
 }
 
 }  // namespace

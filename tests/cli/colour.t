@@ -82,8 +82,6 @@ $ svdag batch list.json --colour-error 3 -q
 ! svdag: --colour-error requires --colours; see svdag batch --help
 ? 2
 $ svdag batch list.json --colours --colour-error 3 -q && cmp b.svdag d.svdag
-$ svdag build cut.glb -o e.svdag -r 128 --colours --dry-run | grep colours
-|   colours come on top: the scene is read once more, with its textures in memory
 $ ls *.scratch
 ! ls: cannot access '*.scratch': No such file or directory
 ? 2

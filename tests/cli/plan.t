@@ -10,6 +10,73 @@ $ svdag build c.ply -r 512 -o c.svdag --dry-run -j 1 -m 200M
 $ ls
 | c.ply
 
+## plan_colours
+# The last step adds the colours: the bytes of one bake with --colours.
+$ python3 -B $TESTS/cut_scene.py 300
+$ svdag build cut.glb -o one.svdag -r 128 -q --colours --colour-error 3 --allow-empty --exclude 'whole*'
+$ svdag build cut.glb -o dry.svdag -r 128 --colours --dry-run -j 1 -m 200M
+| dry.svdag: 128^3, 1,350 triangles in 8 cells
+|*   about * CPU seconds, * s on 1 thread
+|*   a file of about * *, scratch of about * *
+|*   at most * * of memory with --memory 80M
+|   1,200 triangles are cut out by the alpha of their material
+$ svdag plan cut.glb -r 128 --shards 3 --colours --colour-error 3 --allow-empty --exclude 'whole*' -o p -m 200M
+|* */p: 128^3, 1,200 triangles in * bins; one bake would take * CPU seconds
+|*     3 shards: * CPU seconds, the longest takes * s; memory at most * *; output * *
+|*     1 merge: * CPU seconds, the longest takes * s; memory at most * *; output * *
+|*     1 colour pass: * CPU seconds, the longest takes * s; memory at most * *; output * *
+|*   with a machine per step: * s
+|   1,200 triangles are cut out by the alpha of their material
+$ svdag run p -j 2 | tail -1
+|* */p/cut.svdag
+$ cmp one.svdag p/cut.svdag
+$ svdag run p --step colours | sed 's/.*cut/cut/'
+|* cut.svdag: already done, * *, content *+*
+$ svdag submit p --engine openjd --program svdag -q && grep -A1 '"--step"' p/openjd.json
+|        "--step",
+|        "shard-{{Task.Param.Number}}"
+| --
+|        "--step",
+|        "merge-{{Task.Param.Number}}"
+| --
+|        "--step",
+|        "colours"
+$ cp cut.glb whole.glb
+$ printf x >> cut.glb
+$ rm p/cut.svdag
+$ svdag run p -q 2>&1 | sed 's/ (.*//'
+|* svdag: colours failed: */cut.glb: was changed after it was planned: restore it, or create the plan again
+$ mv whole.glb cut.glb
+$ svdag run p -q && cmp one.svdag p/cut.svdag
+
+$ svdag plan cut.glb -r 128 --shards 2 --colour-level 5 -o q
+! svdag: --colour-level requires --colours; see svdag plan --help
+? 2
+$ svdag plan cut.glb -r 128 --shards 2 --colours --colour-level 8 -o q
+! svdag: --colour-level 8: choose 3 to 7
+? 2
+$ svdag plan cut.glb -r 128 --shards 2 --colours --layers material --no-union -o q
+! svdag: --colours: they belong to the union: leave --no-union and --frames out
+? 2
+$ ls -d q
+! ls: cannot access 'q': No such file or directory
+? 2
+
+## plan_colours_resume
+# A killed pass continues after its last part.
+$ python3 -B $TESTS/cut_scene.py 3000
+$ svdag plan cut.glb -r 1K --shards 2 --colours -o p -q -m 64M
+$ for step in shard-1 shard-2 merge-1; do svdag run p --step $step -q; done
+$ svdag run p --step colours -q --checkpoint 0.01 &
+$ until [ "$(stat -c %s p/cut.svdag.scratch/journal 2>/dev/null || echo 0)" -gt 3000 ]; do sleep 0.01; done
+$ kill -s KILL $! && wait $! 2>/dev/null || true
+$ svdag run p --step colours | sed 's/.*cut/cut/'
+|* cut.svdag: colours is done, resumed, * *, content *
+$ svdag build cut.glb -r 1K --colours -o one.svdag -q && cmp one.svdag p/cut.svdag
+$ ls -d p/*.scratch
+! ls: cannot access 'p/*.scratch': No such file or directory
+? 2
+
 ## plan_dry_run_part
 # The cost of a part is not known without a plan: the prediction of the whole is not reported for it.
 $ svdag-scene rectangle -q -o r.ply

@@ -59,8 +59,10 @@ void add_plan(CLI::App* program, Command* command) {
   add_frames(app, &plan->build);
   add_grid_options(app, &plan->build);
   add_layer_options(app, &plan->build);
+  add_colours(app, &plan->build.colours);
   add_resource_options(app, &plan->build.memory, &plan->step_threads, &plan->build.scratch,
-                       "PLAN/plan.scratch", "Threads of each shard (default: 1)");
+                       "PLAN/plan.scratch",
+                       "Threads of each shard, and of the colour pass (default: 1)");
   add_quiet(app, &config->output);
   add_verbose(app, &config->output, "Print a table of the steps");
   add_progress(app, &config->output);
@@ -88,7 +90,7 @@ void add_run(CLI::App* program, Command* command) {
   CLI::Option* const step =
       takes_files(app->add_option("--step", config->name,
                                   "Only this step (svdag info --levels lists them); a finished "
-                                  "one is kept, a stopped shard continues"),
+                                  "one is kept, a stopped shard or colour pass continues"),
                   {"*"})
           ->type_name("NAME");
   takes_files(app->add_option("-o,--output", config->step.output,
@@ -98,7 +100,7 @@ void add_run(CLI::App* program, Command* command) {
   add_memory_budget(app, &config->step.memory);
   app->get_option("--memory")->description("Memory budget (default: as planned)");
   add_checkpoint(app, &config->step.checkpoint);
-  app->add_flag("--restart", config->step.restart, "Discard the saved work of a stopped shard");
+  app->add_flag("--restart", config->step.restart, "Discard the saved work of a stopped step");
   add_verbose(app, &config->output, "Print seconds and memory beside those of the plan");
   for (const char* const option :
        {"--output", "--memory", "--checkpoint", "--restart", "--verbose"})

@@ -57,9 +57,6 @@ int predict(const DryRunCommand& config) {
   }
   if (config.output.quiet) return int(ExitCode::kOk);
   print_bake(made, disk);
-  if (config.build.colours)
-    std::printf(
-        "  colours come on top: the scene is read once more, with its textures in memory\n");
   print_scene_notes(made.counts.scene);
   return int(ExitCode::kOk);
 }

@@ -84,7 +84,9 @@ int do_step(const Plan& plan, const PlanStep& step, const StepConfig& config, si
   progress.finish();
   if (output.quiet) return int(ExitCode::kOk);
   std::printf("%s: %s, %s, content %s\n", printable(report.output).c_str(),
-              report.done_before ? "already done" : (step.name + " is done").c_str(),
+              report.done_before        ? "already done"
+              : report.receipt.resumed ? (step.name + " is done, resumed").c_str()
+                                       : (step.name + " is done").c_str(),
               format_bytes(report.receipt.bytes).c_str(), report.receipt.content_hash.c_str());
   if (output.verbose)
     std::printf("  seconds %.2f (planned %.2f), CPU %.2f (%.2f), memory %s (%s)\n",

@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 using Time = std::filesystem::file_time_type;
 
 constexpr int kMaxAttempts = 2;
-constexpr auto kStepPollInterval = std::chrono::milliseconds(20);            // of our processes
+constexpr auto kStepPollInterval = std::chrono::milliseconds(20);        // of our processes
 constexpr auto kElsewherePollInterval = std::chrono::milliseconds(500);  // of other processes
 
 double seconds_since(Clock::time_point begin) {
@@ -149,6 +149,7 @@ class Runner {
     std::vector<std::string> command = {config_.program.empty() ? own_image() : config_.program};
     for (const std::string& word : plan_.command(plan_.steps[i])) command.push_back(word);
     command.push_back("--quiet");
+    if (plan_.steps[i].is_colours()) command.push_back("-j" + std::to_string(threads_alone(i)));
     if (!config_.scratch.empty()) command.push_back("--scratch=" + config_.scratch);
     row.begin = Clock::now();
     receipt_times_[i] = receipt_time(i);
@@ -157,6 +158,14 @@ class Runner {
     row.process = start_process(command, log_of(i));
     row.state = StepState::kRunning;
     ++row.attempts;
+  }
+
+  // The threads of a step that runs alone: those of all processes that its memory is enough for.
+  size_t threads_alone(size_t i) const {
+    const PlanStep& step = plan_.steps[i];
+    const uint64_t above_base = std::max(step.predicted.budget, kBaseBudget) - kBaseBudget;
+    return std::max(step.threads,
+                    std::min(config_.processes, size_t(above_base / kThreadBudget)));
   }
 
   // Modification time of the step's receipt; Time::min() if it does not exist.

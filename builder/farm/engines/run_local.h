@@ -1,4 +1,5 @@
-// Runs a plan on this machine: one process per step, `processes` at once.
+// Runs a plan on this machine: one process per step, `processes` at once. The colour pass, which
+// runs alone, gets that many threads, if its memory is enough for them.
 //
 // Processes instead of threads isolate crashes and limit the memory of each step. A step that
 // failed for a temporary reason (disk, memory, a signal) is retried once. If a step fails

@@ -2,14 +2,24 @@
 
 #include <chrono>
 
+#include "builder/bake/description.h"
 #include "builder/build.h"
+#include "builder/colour_file.h"
 #include "builder/farm/plan/leaf_bins.h"
 #include "builder/farm/plan/plan_folder.h"
 #include "builder/merge/merge_runs.h"
+#include "builder/run/content_hash.h"
 #include "streaming/spill/scratch_dir.h"
 
 namespace svdag {
 namespace {
+
+// Unfinished work in the plan's folder belongs to the plan; beside another output it may belong to
+// any bake.
+Unfinished unfinished_of(const StepConfig& config) {
+  if (config.restart) return Unfinished::kRestart;
+  return config.output.empty() ? Unfinished::kResumeSame : Unfinished::kResume;
+}
 
 Receipt bake_shard(const Plan& plan, const PlanStep& step, const StepConfig& config,
                    const std::string& output, Executor* executor, Progress* progress) {
@@ -26,17 +36,13 @@ Receipt bake_shard(const Plan& plan, const PlanStep& step, const StepConfig& con
   build.output = output;
   build.memory = config.memory != 0 ? config.memory : step.predicted.budget;
   build.scratch = config.scratch;
-  // An unfinished bake in the plan's folder belongs to the plan; beside another output it may
-  // belong to any bake.
-  const Unfinished unfinished =
-      config.output.empty() ? Unfinished::kResumeSame : Unfinished::kResume;
-  build.unfinished = config.restart ? Unfinished::kRestart : unfinished;
+  build.unfinished = unfinished_of(config);
   if (config.checkpoint != 0) build.checkpoint = config.checkpoint;
   const BuildReport report = svdag::build(build, executor, progress);
-  return {report.content_hash, report.file_bytes, 0, 0, 0, report.scratch.peak};
+  return {report.content_hash, report.file_bytes, 0, 0, 0, report.scratch.peak, report.resumed};
 }
 
-// The outputs of the steps that a merge reads.
+// The outputs of the steps that a step reads.
 std::vector<std::string> inputs_of(const Plan& plan, const PlanStep& step) {
   std::vector<std::string> paths;
   for (const size_t i : step.inputs) {
@@ -65,7 +71,34 @@ Receipt merge_inputs(const Plan& plan, const PlanStep& step, const StepConfig& c
   merge.scratch = config.scratch;
   merge.discard_unfinished = config.output.empty();
   const MergeRunsReport report = merge_runs(merge, executor, progress);
-  return {report.content_hash, report.file_bytes, 0, 0, 0, report.scratch_written};
+  return {report.content_hash, report.file_bytes, 0, 0, 0, report.scratch_written, false};
+}
+
+// Error (kBadInput) unless the files of the scene are those that were planned.
+void check_inputs(const Plan& plan) {
+  MemoryBudget budget;
+  const std::vector<SceneFile> files = scene_files(Scene(plan.colours->scene, &budget));
+  for (size_t i = 0; i < files.size(); ++i) {
+    if (i >= plan.inputs.size() || files[i].hash != plan.inputs[i].hash)
+      fail_input(files[i].path,
+                 "was changed after it was planned: restore it, or create the plan again");
+  }
+}
+
+Receipt colour_merged(const Plan& plan, const PlanStep& step, const StepConfig& config,
+                      const std::string& output, Executor* executor, Progress* progress) {
+  ColourFileConfig colours;
+  colours.file = inputs_of(plan, step).front();
+  check_inputs(plan);
+  colours.scene = plan.colours->scene;
+  colours.pass = plan.colours->pass;
+  colours.output = output;
+  colours.memory = config.memory != 0 ? config.memory : step.predicted.budget;
+  colours.scratch = config.scratch;
+  colours.unfinished = unfinished_of(config);
+  if (config.checkpoint != 0) colours.checkpoint = config.checkpoint;
+  const ColourReport report = colour_file(colours, executor, progress);
+  return {content_hash_of(output, false), report.header.file_bytes, 0, 0, 0, report.scratch, report.resumed};
 }
 
 std::string output_of(const Plan& plan, const PlanStep& step, const StepConfig& config) {
@@ -89,7 +122,7 @@ StepReport run_step(const Plan& plan, const PlanStep& step, const StepConfig& co
     return report;
   }
   make_folder(plan.path("runs"));  // a copy of a plan may lack empty folders
-  const auto work = step.is_shard() ? bake_shard : merge_inputs;
+  const auto work = step.is_shard() ? bake_shard : step.is_colours() ? colour_merged : merge_inputs;
   try {
     report.receipt = work(plan, step, config, report.output, executor, progress);
   } catch (const ScratchInUse& in_use) {

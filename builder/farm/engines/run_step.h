@@ -1,10 +1,10 @@
-// Runs one step of a plan: bakes a shard, or merges the outputs of other steps.
+// Runs one step of a plan: bakes a shard, merges the outputs of other steps, or adds colours.
 //
 // A step may run any number of times, on any machine, even twice at once: a valid output is kept,
-// any other is replaced, and outputs appear complete. A killed shard is resumed if its scratch
-// folder still exists; scratch that is damaged or of another plan is discarded, and the shard
-// starts over. If another process runs the step in the same scratch folder, this throws an Error
-// with an exit code of its own.
+// any other is replaced, and outputs appear complete. A killed shard or colour pass is resumed if
+// its scratch folder still exists; scratch that is damaged or of another plan is discarded, and the
+// step starts over. If another process runs the step in the same scratch folder, this throws an
+// Error with an exit code of its own.
 #pragma once
 
 #include "builder/farm/plan/receipt.h"
@@ -22,8 +22,8 @@ struct StepConfig {
   std::string output;     // empty: the output in the plan's folder
   uint64_t memory = 0;    // bytes; 0: as planned
   std::string scratch;    // the folder for scratch folders; empty: the output's folder
-  double checkpoint = 0;  // of a shard, as in BuildConfig; 0: the default of BuildConfig
-  bool restart = false;   // discard the saved work of a killed shard
+  double checkpoint = 0;  // unless a merge, as in BuildConfig; 0: the default of BuildConfig
+  bool restart = false;   // discard the saved work of a killed step
 };
 
 struct StepReport {

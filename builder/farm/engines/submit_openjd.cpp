@@ -38,7 +38,7 @@ struct Stage {
   std::vector<size_t> steps;
 };
 
-// The shards, then the merges by their height above the shards.
+// The shards, then the merges by their height above the shards, then the colours.
 std::vector<Stage> stages_of(const Plan& plan) {
   std::vector<size_t> height;
   std::map<size_t, Stage> stages;
@@ -47,7 +47,9 @@ std::vector<Stage> stages_of(const Plan& plan) {
     for (const size_t input : plan.steps[i].inputs) own = std::max(own, height[input] + 1);
     height.push_back(own);
     Stage& stage = stages[own];
-    stage.name = own == 0 ? "Shards" : "Merges" + std::to_string(own);
+    stage.name = own == 0                     ? "Shards"
+                 : plan.steps[i].is_colours() ? "Colours"
+                                              : "Merges" + std::to_string(own);
     stage.steps.push_back(i);
   }
   std::vector<Stage> list;
@@ -67,13 +69,16 @@ Json requirements(const Plan& plan, const Stage& stage) {
 }
 
 Json step_json(const Plan& plan, const SubmitConfig& config, const Stage& stage) {
-  const bool shards = plan.steps[stage.steps.front()].is_shard();
-  const std::string tasks = number_in(plan.steps[stage.steps.front()].name) + "-" +
-                            number_in(plan.steps[stage.steps.back()].name);
+  const PlanStep& first = plan.steps[stage.steps.front()];
+  const std::string tasks = first.is_colours() ? "1"
+                                               : number_in(first.name) + "-" +
+                                                     number_in(plan.steps[stage.steps.back()].name);
   double seconds = 0;
   for (const size_t i : stage.steps) seconds = std::max(seconds, plan.steps[i].predicted.seconds);
   Json arguments = {"run", "{{Param.Plan}}", "--step",
-                    shards ? shard_name(kNumber) : merge_name(kNumber)};
+                    first.is_shard()     ? shard_name(kNumber)
+                    : first.is_colours() ? kColoursName
+                                         : merge_name(kNumber)};
   if (!config.scratch.empty()) arguments.push_back("--scratch={{Param.Scratch}}");
   return {{"name", stage.name},
           {"parameterSpace",

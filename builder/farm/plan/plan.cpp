@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kPlanJson = "plan.json";
-constexpr int kFormat = 8;  // changes with the keys of plan.json and the contents of the index
+constexpr int kFormat = 9;  // changes with the keys of plan.json and the contents of the index
 
 constexpr size_t kHashDigits = 32;
 
@@ -152,6 +152,8 @@ PlanStep get_step(const Json& json, const Plan& plan) {
     step.inputs.push_back(size_t(input - plan.steps.begin()));
   }
   if (step.inputs.empty()) fail_plan(plan, "merge " + step.name + " has no inputs");
+  if (step.is_colours() && (!plan.colours || step.inputs.size() != 1))
+    fail_plan(plan, "step " + step.name + " does not add the colours of the plan to one file");
   return step;
 }
 
@@ -179,6 +181,7 @@ void parse(const std::string& text, Plan* plan, std::string* index_hash) {
   visit_count_fields(plan->counts, GetJson{json.at("scene"), *plan});
   plan->one_bake_cpu = json.at("one_bake").at("cpu_seconds");
   plan->cells = count_of(json.at("one_bake"), "cells");
+  if (json.contains("colours")) plan->colours = get_colours(json.at("colours"));
   *index_hash = json.at("index_hash");
   for (const Json& step : json.at("steps")) plan->steps.push_back(get_step(step, *plan));
   if (plan->steps.empty()) fail_plan(*plan, "the plan has no steps");
@@ -222,6 +225,7 @@ std::string plan_json(const Plan& plan, const std::string& index_hash) {
   visit_fields(plan.grid, PutJson{&json["grid"]});
   json["rule"] = rule_name(plan.content.rule);
   visit_count_fields(plan.counts, PutJson{&json["scene"]});
+  if (plan.colours) json["colours"] = colours_json(*plan.colours);
   json["one_bake"] = {{"cpu_seconds", rounded(plan.one_bake_cpu)}, {"cells", plan.cells}};
   json["bins"] = plan.bins.size();
   json["index_hash"] = index_hash;

@@ -9,12 +9,16 @@
 // Once plan.json exists, only runs/ and logs/ change. plan.json ends with a hash of itself: every
 // step rejects an edited plan, which would bake something else. The hash also identifies the plan
 // in receipts, so a run of another plan, or of an older plan in the same folder, is detected. A
-// step reads the plan and the outputs of the steps before it, never the scene.
+// step reads the plan and the outputs of the steps before it; only the step that adds colours also
+// reads the scene.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "builder/farm/plan/plan_colours.h"
+#include "builder/farm/plan/step_name.h"
 #include "builder/octree/grid_part.h"
 #include "builder/split/split.h"
 #include "io/dag/format.h"
@@ -32,15 +36,17 @@ struct Prediction {
 };
 
 struct PlanStep {
-  std::string name;            // "shard-3", "merge-1"
-  CellRange cells;             // of a shard; unused by a merge
+  std::string name;            // "shard-3", "merge-1", "colours"
+  CellRange cells;             // of a shard; unused by others
   uint64_t triangles = 0;      // number of triangles that a shard reads
-  std::vector<size_t> inputs;  // steps whose outputs a merge reads; empty for a shard
+  std::vector<size_t> inputs;  // steps whose outputs this one reads; empty for a shard
   std::string output;          // path relative to the plan's folder
   size_t threads = 1;
   Prediction predicted;
 
   bool is_shard() const { return inputs.empty(); }
+  bool is_merge() const { return !is_shard() && !is_colours(); }
+  bool is_colours() const { return name == kColoursName; }
 };
 
 struct PlanInput {
@@ -55,11 +61,12 @@ struct Plan {
   std::vector<PlanInput> inputs;
   std::string description;  // builder/bake/description.h
   Grid grid;
-  ContentOptions content;  // of a loaded plan: those that the shards use
+  ContentOptions content;              // of a loaded plan: those that the shards use
+  std::optional<PlanColours> colours;  // the last step adds them
   SplitCounts counts;
   double one_bake_cpu = 0;      // seconds, predicted
   size_t cells = 0;             // number of non-empty cells
-  std::vector<PlanStep> steps;  // shards first, in order; each merge after its inputs
+  std::vector<PlanStep> steps;  // shards first, in order; each other one after its inputs
   // The index.
   size_t block_bytes = 0;
   std::vector<TriangleBin> bins;
@@ -92,5 +99,7 @@ const PlanStep& find_step(const Plan& plan, const std::string& name);
 
 constexpr const char* kPlanTriangles = "triangles";
 constexpr uint64_t kBesideBudget = uint64_t(64) << 20;  // memory of a bake outside its budget
+// Any step succeeds with a budget of kBaseBudget, and kThreadBudget per thread.
+constexpr uint64_t kBaseBudget = uint64_t(64) << 20, kThreadBudget = uint64_t(16) << 20;
 
 }  // namespace svdag

@@ -28,7 +28,8 @@ void write_receipt(const Plan& plan, const PlanStep& step, const Receipt& receip
                      {"seconds", receipt.seconds},
                      {"cpu_seconds", receipt.cpu},
                      {"memory_bytes", receipt.memory},
-                     {"scratch_bytes", receipt.scratch}};
+                     {"scratch_bytes", receipt.scratch},
+                     {"resumed", receipt.resumed}};
   AtomicFile file(receipt_path(plan, step));
   file.append(json_text(json, 1) + "\n");
   file.commit();
@@ -50,6 +51,7 @@ std::optional<Receipt> read_receipt(const Plan& plan, const PlanStep& step) {
     receipt.cpu = json.at("cpu_seconds");
     receipt.memory = whole_number<uint64_t>(json.at("memory_bytes"));
     receipt.scratch = whole_number<uint64_t>(json.at("scratch_bytes"));
+    receipt.resumed = json.at("resumed");
     return receipt;
   } catch (const Json::exception&) {
     return {};

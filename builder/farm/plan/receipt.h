@@ -15,11 +15,12 @@
 namespace svdag {
 
 struct Receipt {
-  std::string content_hash;  // 32 hex digits
+  std::string content_hash;  // content_hash_of(), builder/run/content_hash.h
   uint64_t bytes = 0;
   // Measured.
   double seconds = 0, cpu = 0;
   uint64_t memory = 0, scratch = 0;  // peaks in bytes
+  bool resumed = false;              // the step continued the work of a killed process
 };
 
 enum class OutputState {

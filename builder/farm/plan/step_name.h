@@ -1,4 +1,4 @@
-// Names of the steps of a plan: "shard-3", "merge-1", each kind numbered from 1.
+// Names of the steps of a plan: "shard-3", "merge-1", each kind numbered from 1; "colours".
 //
 // A number given as a string may be a placeholder that another program replaces.
 #pragma once
@@ -10,6 +10,7 @@ namespace svdag {
 
 constexpr const char* kShardPrefix = "shard-";
 constexpr const char* kMergePrefix = "merge-";
+constexpr const char* kColoursName = "colours";
 
 inline std::string shard_name(const std::string& number) {
   return kShardPrefix + number;

@@ -13,6 +13,7 @@
 #include "builder/farm/plan/plan_folder.h"
 #include "builder/farm/plan/step_name.h"
 #include "builder/farm/planner/balance.h"
+#include "builder/farm/planner/colour_survey.h"
 #include "builder/farm/planner/pilot.h"
 #include "builder/workspace/workspace.h"
 #include "streaming/error.h"
@@ -83,10 +84,11 @@ class Planner {
  private:
   void clear_scratch();
   void read_scene();
-  void describe_inputs();
+  void describe_inputs(const Scene& described);
   void make_steps();
   void add_shards(const std::vector<CellRange>& shards, const std::vector<ShardWork>& works);
   void add_merges(const std::vector<ShardWork>& works, const NodeCounts& found);
+  void add_colours();
   void save();
   StepLimits limits() const { return {config_.step_threads, config_.build.memory}; }
 
@@ -111,15 +113,20 @@ void Planner::clear_scratch() {
 }
 
 void Planner::read_scene() {
+  const Scene described(described_scene(config_.build), workspace_.budget());
   if (!config_.folder.empty())
-    scene_.visit_files([](const File& file) { require_utf8(absolute_path(file.path())); });
+    described.visit_files([](const File& file) { require_utf8(absolute_path(file.path())); });
   progress_->phase("read bounds", 0);
-  inputs_ = scene_.watch();
+  inputs_ = described.watch();
   plan_.folder = config_.folder;
   plan_.grid = choose_grid(config_.build, scene_);
   plan_.content = config_.build;
+  if (config_.build.colours) {
+    check_colour_level(*config_.build.colours, plan_.grid.levels);
+    plan_.colours = {*config_.build.colours, config_.build.scene};
+  }
   progress_->phase("hash", 0);
-  describe_inputs();
+  describe_inputs(described);
   progress_->phase("split", 0);
   SplitConfig split_config;
   split_config.content = plan_.content;
@@ -155,8 +162,8 @@ void Planner::read_scene() {
   plan_.bins = make_leaf_bins(&scene, plan_.grid, leaf, workspace_.scratch(), triangles_.get());
 }
 
-void Planner::describe_inputs() {
-  const std::vector<SceneFile> files = scene_files(scene_);
+void Planner::describe_inputs(const Scene& described) {
+  const std::vector<SceneFile> files = scene_files(described);
   plan_.description = describe(config_.build, files);
   for (const SceneFile& file : files)
     plan_.inputs.push_back({absolute_path(file.path), file.bytes, file.hash});
@@ -180,6 +187,27 @@ void Planner::make_steps() {
   const std::vector<ShardWork> works = pilot.works_of(shards);
   add_shards(shards, works);
   add_merges(works, pilot.found());
+  if (plan_.colours) add_colours();
+}
+
+// The last merge then writes a file of its own, which the pass copies.
+void Planner::add_colours() {
+  progress_->phase("survey colours", 0);
+  const Scene painted(described_scene(config_.build), workspace_.budget(), &vertices_);
+  SceneCounts counts;
+  const ColourWork work =
+      survey_colours(painted, plan_.grid, plan_.colours->pass, &workspace_, &counts);
+  plan_.counts.scene.unread_images = counts.unread_images;
+  inputs_.check();
+  PlanStep& merge = plan_.steps.back();
+  PlanStep step;
+  step.name = kColoursName;
+  step.inputs = {plan_.steps.size() - 1};
+  step.output = std::exchange(merge.output, "runs/" + merge.name + ".svdag");
+  step.threads = config_.step_threads;
+  step.predicted = predict_colours(work, merge.predicted.output, limits());
+  plan_.one_bake_cpu += step.predicted.cpu;
+  plan_.steps.push_back(step);
 }
 
 void Planner::add_shards(const std::vector<CellRange>& shards,
@@ -265,6 +293,7 @@ void discard_dry_run(const BuildConfig& build) {
 }
 
 Plan make_plan(const PlanConfig& config, Progress* progress) {
+  check_colours(config.build);
   PlanConfig own = config;
   bool created = false;
   if (!own.folder.empty()) {

@@ -12,9 +12,9 @@ struct PlanConfig {
   BuildConfig build;  // its output is unused if `folder` is set; `memory` limits planning and steps
   std::string folder;  // of the plan, new or empty; if "", the plan is made but not saved
   size_t shards = 1;
-  size_t fan_in = 16;  // max runs that one merge reads
-  size_t step_threads = 1;
-  std::string output;  // name of the finished file in the plan's folder
+  size_t fan_in = 16;       // max runs that one merge reads
+  size_t step_threads = 1;  // of the shards and of the colour pass
+  std::string output;       // name of the finished file in the plan's folder
 };
 
 // Removes the scratch folder of a killed dry run of this bake, which the bake itself does not use.

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "builder/build.h"
+#include "builder/colours/prepared_triangles.h"
+#include "builder/colours/spilled_colours.h"
 #include "builder/reduce/run.h"
 
 namespace svdag {
@@ -16,17 +18,19 @@ constexpr double kDivided = 319.7e-9;    // a cube divided
 constexpr double kComputed = 168.2e-9;   // a node computed for the plane memo
 constexpr double kFound = 193.3e-9;      // a unique node: numbered, sorted, written
 constexpr double kMergeRead = 83.46e-9;  // a node that a merge reads
-constexpr double kNodeInFile = 22.4;  // bytes of a node in a .svdag
+constexpr double kNodeInFile = 22.4;     // bytes of a node in a .svdag
+// Of the colour pass, fitted by hand to nine textured scenes: right within a factor of two.
+constexpr double kPainted = 1200e-9;   // a triangle: read, snapped, prepared
+constexpr double kTexel = 60e-9;       // decoded, with its mip map
+constexpr double kPair = 400e-9;       // a triangle and a cube
+constexpr double kCube = 450e-9;       // spilled, encoded, written
+constexpr double kColourInFile = 0.5;  // bytes of a cube's colours at the default error
 
 constexpr uint64_t kMiB = uint64_t(1) << 20;
 
-// A budget with which any bake succeeds.
-uint64_t min_budget(size_t threads) {
-  return (64 + 16 * threads) * kMiB;
-}
 
 uint64_t budget_for(double need, const StepLimits& limits) {
-  const uint64_t min = min_budget(limits.threads);
+  const uint64_t min = kBaseBudget + limits.threads * kThreadBudget;
   const uint64_t max = limits.memory != 0 ? std::max(limits.memory, min) : UINT64_MAX;
   const double whole = std::ceil(need / double(kMiB)) * double(kMiB);
   return std::clamp(uint64_t(std::min(whole, 1e18)), min, max);
@@ -71,6 +75,30 @@ Prediction predict_merge(const NodeCounts& read, const NodeCounts& made, bool la
   p.memory = p.budget + kBesideBudget;
   p.output = uint64_t(last ? kNodeInFile * made.nodes + 8 * made.bricks : made.run_bytes());
   p.scratch = 2 * maps > double(p.budget) ? uint64_t(kMargin * (read.run_bytes() + maps)) : 0;
+  return p;
+}
+
+Prediction predict_colours(const ColourWork& work, uint64_t file, const StepLimits& limits) {
+  // A quarter of the budget holds triangles; half may hold images. To spill many triangles costs a
+  // tenth of the time, so they do not need a large machine.
+  constexpr double kMargin = 1.5, kShareOfTriangles = 4, kShareOfImages = 2;
+  constexpr double kMaxForTriangles = double(1024 * kMiB);
+  const double serial = kStart + kPainted * double(work.triangles) + kTexel * double(work.texels);
+  const double parallel = kPair * work.pairs + kCube * work.cubes;
+  const double triangles = double(PreparedTriangles::kBytes) * double(work.triangles);
+  const double images = double(LinearImage::bytes(work.texels));
+  Prediction p;
+  p.cpu = serial + parallel;
+  p.seconds = serial + parallel / double(limits.threads);
+  p.budget =
+      budget_for(std::max({kMargin * double(work.read_bytes), kShareOfImages * images,
+                           std::min(kMargin * kShareOfTriangles * triangles, kMaxForTriangles)}),
+                 limits);
+  p.memory = p.budget + kBesideBudget;
+  p.output = file + uint64_t(kColourInFile * work.cubes);
+  const bool spills = kShareOfTriangles * triangles > double(p.budget);
+  p.scratch = uint64_t(double(SpilledColours::kEntryBytes) * work.cubes +
+                       (spills ? kMargin * sizeof(PaintedTriangle) * double(work.triangles) : 0));
   return p;
 }
 

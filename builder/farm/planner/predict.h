@@ -47,6 +47,20 @@ Prediction predict_shard(const ShardWork& shard, const StepLimits& limits);
 Prediction predict_merge(const NodeCounts& read, const NodeCounts& made, bool last,
                          const StepLimits& limits);
 
+// The work of a colour pass (builder/farm/planner/colour_survey.h). Only triangles of several
+// colours make pairs and cubes.
+struct ColourWork {
+  int level = 0;            // K
+  uint64_t triangles = 0;   // that meet the grid
+  uint64_t texels = 0;      // of all images
+  uint64_t read_bytes = 0;  // peak memory of reading the scene and decoding the images
+  double pairs = 0;         // of a triangle and a cube of the level
+  double cubes = 0;         // that get colours
+};
+
+// `file`: the bytes of the file without colours.
+Prediction predict_colours(const ColourWork& work, uint64_t file, const StepLimits& limits);
+
 // CPU seconds of baking a scene of `triangles` triangles without a plan. `cost`: of voxelizing.
 double cpu_of_bake(double cost, const NodeCounts& found, uint64_t triangles);
 

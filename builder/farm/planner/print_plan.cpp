@@ -34,6 +34,22 @@ void print_totals(const char* what, const Totals& totals) {
       totals.scratch != 0 ? (", scratch at most " + format_bytes(totals.scratch)).c_str() : "");
 }
 
+// The bake without a plan, from a plan of one shard. With colours, its file is in scratch until
+// they are in.
+Prediction bake_of(const Plan& plan) {
+  Prediction p = plan.steps.front().predicted;
+  p.cpu = plan.one_bake_cpu;
+  p.seconds = p.cpu / double(plan.steps.front().threads);
+  const Prediction& last = plan.steps.back().predicted;
+  p.output = last.output;
+  if (!plan.colours) return p;
+  p.budget = std::max(p.budget, last.budget);
+  p.memory = std::max(p.memory, last.memory);
+  const Prediction& merge = plan.steps[plan.steps.back().inputs.front()].predicted;
+  p.scratch = std::max(p.scratch, merge.output + last.scratch);
+  return p;
+}
+
 // Seconds of the longest chain of steps: the time of the plan with a machine per step.
 double critical_path(const Plan& plan) {
   std::vector<double> ends;
@@ -62,8 +78,9 @@ void print_steps(const Plan& plan) {
 }  // namespace
 
 void print_plan(const Plan& plan, bool steps) {
-  Totals shards, merges;
-  for (const PlanStep& step : plan.steps) (step.is_shard() ? shards : merges).add(step.predicted);
+  Totals shards, merges, colours;
+  for (const PlanStep& step : plan.steps)
+    (step.is_shard() ? shards : step.is_merge() ? merges : colours).add(step.predicted);
   std::printf("%s%s^3, %s triangles in %zu bins; one bake would take %.2f CPU seconds\n",
               plan.folder.empty() ? "" : (plan.folder + ": ").c_str(),
               format_resolution(uint64_t(plan.grid.resolution())).c_str(),
@@ -71,12 +88,14 @@ void print_plan(const Plan& plan, bool steps) {
               plan.one_bake_cpu);
   print_totals(shards.steps == 1 ? "shard" : "shards", shards);
   print_totals(merges.steps == 1 ? "merge" : "merges", merges);
+  if (plan.colours) print_totals("colour pass", colours);
   std::printf("  with a machine per step: %.2f s\n", critical_path(plan));
   if (steps) print_steps(plan);
 }
 
 void print_bake_json(const Plan& plan, const FreeDisk& disk) {
   const PlanStep& step = plan.steps.front();
+  const Prediction p = bake_of(plan);
   const auto whole = [](uint64_t n) { return static_cast<unsigned long long>(n); };
   std::printf(
       "{\"resolution\": %llu, \"triangles\": %llu, \"cells\": %zu, \"threads\": %zu, "
@@ -84,24 +103,20 @@ void print_bake_json(const Plan& plan, const FreeDisk& disk) {
       "\"output_bytes\": %llu, \"output_free_bytes\": %llu, \"scratch_bytes\": %llu, "
       "\"scratch_free_bytes\": %llu}\n",
       whole(uint64_t(plan.grid.resolution())), whole(plan.counts.scene.triangles), plan.cells,
-      step.threads, plan.one_bake_cpu, plan.one_bake_cpu / double(step.threads),
-      whole(step.predicted.budget), whole(step.predicted.memory),
-      whole(plan.steps.back().predicted.output), whole(disk.output_bytes),
-      whole(step.predicted.scratch), whole(disk.scratch_bytes));
+      step.threads, p.cpu, p.seconds, whole(p.budget), whole(p.memory), whole(p.output),
+      whole(disk.output_bytes), whole(p.scratch), whole(disk.scratch_bytes));
 }
 
 void print_bake(const Plan& plan, const FreeDisk& disk) {
-  const Prediction& p = plan.steps.front().predicted;
-  const double seconds = plan.one_bake_cpu / double(plan.steps.front().threads);
+  const Prediction p = bake_of(plan);
   std::printf("%s: %s^3, %s triangles in %s cells\n", printable(disk.output).c_str(),
               format_resolution(uint64_t(plan.grid.resolution())).c_str(),
               format_count(plan.counts.scene.triangles).c_str(), format_count(plan.cells).c_str());
-  std::printf("  about %.2f CPU seconds, %.2f s on %s\n", plan.one_bake_cpu, seconds,
+  std::printf("  about %.2f CPU seconds, %.2f s on %s\n", p.cpu, p.seconds,
               format_count(plan.steps.front().threads, "thread").c_str());
-  const uint64_t output_bytes = plan.steps.back().predicted.output;
-  std::printf("  a file of about %s, scratch of about %s\n", format_bytes(output_bytes).c_str(),
+  std::printf("  a file of about %s, scratch of about %s\n", format_bytes(p.output).c_str(),
               format_bytes(p.scratch).c_str());
-  if (output_bytes > disk.output_bytes)
+  if (p.output > disk.output_bytes)
     std::printf("  not enough disk space for the file: %s free\n",
                 format_bytes(disk.output_bytes).c_str());
   if (p.scratch > disk.scratch_bytes)
