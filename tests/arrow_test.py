@@ -16,7 +16,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 STREAMING = ["streaming", "streaming/file", "streaming/memory", "streaming/process", "streaming/spill",
              "streaming/sort"]
 SCENE = ["io/scene/cutouts", "io/scene/colours", "io/scene/mesh", "io/scene/polygons", "io/scene/decoders", "io/scene/readers", "io/scene/gltf", "io/scene"]
-FORMATS = ["io/formats", "io/formats/dags", "io/formats/voxels", "io/formats/vdb"]
+FORMATS = ["io/formats", "io/formats/dags", "io/formats/voxels", "io/formats/surfaces", "io/formats/vdb"]
 PHASES = ["builder/octree", "builder/overlap", "builder/overlap/kernels", "builder/winding", "builder/workspace", "builder/reduce",
           "builder/descend", "builder/split", "builder/run", "builder/merge"]
 DAG = ["io/dag", "io/dag/colours", "io/dag/layers", "io/dag/compact", "io/dag/pack", "io/dag/graph"]
@@ -44,6 +44,7 @@ ALLOWED = {
     "io/formats": STREAMING + ["io", *DAG],
     "io/formats/dags": STREAMING + ["io", *DAG, "io/formats"],
     "io/formats/voxels": STREAMING + ["io", *DAG, "io/formats"],
+    "io/formats/surfaces": STREAMING + ["io", *DAG, "io/formats"],
     "io/formats/vdb": STREAMING + ["io", *DAG, "io/formats"],
     "builder/octree": ["streaming", "io"],
     "builder/overlap": ["streaming", "io", "builder/octree"],
@@ -64,7 +65,7 @@ ALLOWED = {
                                   "builder/reduce"],
     "builder": STREAMING + ["io", *DAG, "io/scene"] + PHASES + ["builder/cache", "builder/colours"],
     "builder/bake": BAKE + ["builder/colours"],
-    "builder/import": STREAMING + ["io", *DAG] + PHASES,
+    "builder/import": STREAMING + ["io", *DAG] + PHASES + ["builder/colours"],
     "builder/edit": STREAMING + ["io", *DAG, "builder/import", "builder/workspace"],
     "builder/farm/plan": BAKE + ["builder/bake", "builder/colours"],
     "builder/farm/planner": BAKE + ["builder/bake", "builder/colours", "builder/farm/plan"],

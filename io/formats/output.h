@@ -43,6 +43,10 @@ class Output {
       file_.write_at(offset, bytes);
     }
   }
+  void patch(uint64_t offset, std::string_view text) {
+    flush();
+    file_.write_at(offset, std::as_bytes(std::span(text)));
+  }
   uint64_t size() const { return file_.size() + used_; }
 
   // Flushes and renames the file to its final name.

@@ -293,10 +293,10 @@ $ cat before
 $ svdag-scene city -n 3K -q -o a.ply
 $ svdag build a.ply -r 64 -o a.svdag -q
 $ svdag export a.svdag -o a.txt
-! svdag: a.txt: unknown file extension: choose a format with --format: vdb, nvdb, hashdag, symvox, transform-dag, octree, npz, binvox, vox, ply
+! svdag: a.txt: unknown file extension: choose a format with --format: vdb, nvdb, hashdag, symvox, transform-dag, octree, npz, binvox, vox, ply, glb, obj, stl, ply-surface
 ? 2
 $ svdag export a.svdag -o a.vdb --format foo
-! svdag: --format: unknown format "foo": choose one of vdb, nvdb, hashdag, symvox, transform-dag, octree, npz, binvox, vox, ply
+! svdag: --format: unknown format "foo": choose one of vdb, nvdb, hashdag, symvox, transform-dag, octree, npz, binvox, vox, ply, glb, obj, stl, ply-surface
 ? 2
 $ svdag export a.svdag -o a.vdb --level 7
 ! svdag: --level 7: a.svdag has the levels 3 to 6
@@ -380,3 +380,38 @@ $ svdag export plain.svdag -o b.basic_dag.dag.bin --colours
 ? 2
 $ svdag convert painted.svdag -o bare.svdag --no-colours -q && svdag export bare.svdag -o b.vox -q && svdag export plain.svdag -o c.vox -q && cmp b.vox c.vox && echo same
 | same
+
+## export_surface
+# The surface of voxels as a mesh: quads that are merged where they have one colour, closed, placed in the world.
+$ svdag-scene city -n 3K -q -o a.ply
+$ svdag build a.ply -r 64 -o a.svdag -q
+$ svdag export a.svdag -o a.glb
+| a.glb: glb, 17,099 voxels of level 6 (64^3), 22,510 faces as 2,325 quads
+$ svdag export a.svdag -o a.obj --no-merge
+| a.obj: obj, 17,099 voxels of level 6 (64^3), 22,510 faces as 22,510 quads
+$ svdag export a.svdag -o a.stl --level 5 --json
+| {
+|   "output": "a.stl",
+|   "format": "stl",
+|   "level": 5,
+|   "resolution": 32,
+|   "voxels": 3015,
+|   "faces": 4002,
+|   "quads": 588,
+|   "vertices": 778
+| }
+$ svdag export a.svdag -o b.ply --format ply-surface -q && head -3 b.ply | cat -A | tr -s ' '
+| ply$
+| format binary_little_endian 1.0$
+| comment surface of voxels of side 1.5238095238095237 $
+$ svdag build a.glb -r 64 --rule solid -o c.svdag | sed -n 1p | cut -d, -f1-2
+| c.svdag: 64^3, 4
+$ svdag export a.svdag -o c.glb --max-quads 100
+! svdag: the surface has 2,325 quads, more than 100: export a coarser --level, a part with --bounds, or raise --max-quads
+? 2
+$ svdag export a.svdag -o a.npz --no-merge
+! svdag: --no-merge: only glb, obj, stl and ply-surface are surfaces, the format is npz
+? 2
+$ svdag export a.svdag -o a.npz --max-quads 10
+! svdag: --max-quads: only glb, obj, stl and ply-surface are surfaces, the format is npz
+? 2

@@ -43,7 +43,16 @@ constexpr FormatRow kFormats[] = {
     {{"binvox", "binvox", "a dense cube"}, export_binvox},
     {{"vox", "vox", "MagicaVoxel"}, export_vox},
     {{"ply", "ply", "centres of voxels as points"}, export_ply},
+    {{"glb", "glb", "the surface of the voxels as quads, merged"}, export_glb},
+    {{"obj", "obj", "the same"}, export_obj},
+    {{"stl", "stl", "the same, without colours"}, export_stl},
+    {{"ply-surface", "ply", "the same"}, export_ply_surface},
 };
+
+bool is_surface(const FormatRow& row) {
+  return row.write == export_glb || row.write == export_obj || row.write == export_stl ||
+         row.write == export_ply_surface;
+}
 
 bool ends_in(const std::string& path, const char* ending) {
   return path.ends_with("." + std::string(ending));
@@ -75,12 +84,18 @@ void reject_options_of_other_formats(const FormatRow& row, const ExportConfig& c
   const auto lists = {export_npz, export_binvox, export_vox, export_ply};
   if (config.max_voxels && std::find(lists.begin(), lists.end(), row.write) == lists.end())
     fail_usage("--max-voxels: only npz, binvox, vox and ply list voxels, the format is " + format);
+  if (config.max_quads && !is_surface(row))
+    fail_usage("--max-quads: only glb, obj, stl and ply-surface are surfaces, the format is " +
+               format);
+  if (config.no_merge && !is_surface(row))
+    fail_usage("--no-merge: only glb, obj, stl and ply-surface are surfaces, the format is " +
+               format);
 }
 
 bool holds_colours(const FormatRow& row, const ExportConfig& config) {
   if (row.write == export_hashdag) return config.colours;
   return row.write == export_vdb || row.write == export_npz || row.write == export_vox ||
-         row.write == export_ply;
+         row.write == export_ply || (is_surface(row) && row.write != export_stl);
 }
 
 void reject_input_as_output(const FormatRow& row, const ExportConfig& config) {
@@ -107,11 +122,23 @@ std::string report_json(const ExportConfig& config, const char* format, const Gr
                                  {"level", grid.levels},
                                  {"resolution", grid.resolution()},
                                  {"voxels", result.voxels}};
+  if (const auto& surface = result.surface) {
+    json["faces"] = surface->faces;
+    json["quads"] = surface->quads;
+    json["vertices"] = surface->vertices;
+  }
   if (const auto& palette = result.palette)
     json["palette"] = {{"colours", palette->colours},
                        {"entries", palette->entries},
                        {"largest_error", palette->largest_error}};
   return json_text(json, 2) + "\n";
+}
+
+// ", 1,234 faces as 567 quads" of a surface, else nothing.
+std::string surface_text(const ExportResult& result) {
+  if (!result.surface) return {};
+  return ", " + format_count(result.surface->faces) + " faces as " +
+         format_count(result.surface->quads) + " quads";
 }
 
 // ", 1,234 colours as 255, off by at most 9.4 of 255 steps" of a palette, else nothing.
@@ -163,7 +190,7 @@ int run(const ExportConfig& options) {
     std::printf("%s: %s, %s voxels of level %d (%s^3)%s\n", printable(config.output).c_str(),
                 row.format.name, format_count(result.voxels).c_str(), part.grid.levels,
                 format_resolution(uint64_t(part.grid.resolution())).c_str(),
-                palette_text(result).c_str());
+                (surface_text(result) + palette_text(result)).c_str());
   return int(ExitCode::kOk);
 }
 

@@ -20,6 +20,8 @@ struct ExportConfig {
   std::string format;  // a name in export_formats(); empty: from the output's extension
   Selection selection;
   std::optional<uint64_t> max_voxels;  // limit of formats that list voxels; none: 10^9
+  std::optional<uint64_t> max_quads;   // limit of surfaces; none: 10^9
+  bool no_merge = false;               // --no-merge, surfaces: a quad for each face of a voxel
   std::optional<VdbFormat> vdb_type;   // --vdb-type; default: bool
   std::optional<int> up;               // --up, vox: the axis that is up, 0 to 2; default: y
   bool colours = false;                // --colours: hashdag gets a second file, of colours

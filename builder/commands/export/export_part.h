@@ -7,6 +7,7 @@
 #include "builder/commands/export/export.h"
 #include "io/dag/cube_walk.h"
 #include "io/dag/dag_file.h"
+#include "io/formats/surfaces/surface.h"
 #include "streaming/memory/memory_budget.h"
 
 namespace svdag {
@@ -28,6 +29,7 @@ struct ExportResult {
     double largest_error = 0;  // in 8-bit steps
   };
   std::optional<Palette> palette{};
+  std::optional<SurfaceCounts> surface{};
 };
 
 // One function per format. Each writes config.output atomically.
@@ -44,5 +46,10 @@ ExportResult export_npz(ExportPart* part, const ExportConfig& config, MemoryBudg
 ExportResult export_binvox(ExportPart* part, const ExportConfig& config, MemoryBudget* budget);
 ExportResult export_vox(ExportPart* part, const ExportConfig& config, MemoryBudget* budget);
 ExportResult export_ply(ExportPart* part, const ExportConfig& config, MemoryBudget* budget);
+// Surfaces: more than config.max_quads are an Error (kUsage), and nothing is written.
+ExportResult export_glb(ExportPart* part, const ExportConfig& config, MemoryBudget* budget);
+ExportResult export_obj(ExportPart* part, const ExportConfig& config, MemoryBudget* budget);
+ExportResult export_stl(ExportPart* part, const ExportConfig& config, MemoryBudget* budget);
+ExportResult export_ply_surface(ExportPart* part, const ExportConfig& config, MemoryBudget* budget);
 
 }  // namespace svdag

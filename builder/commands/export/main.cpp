@@ -33,6 +33,13 @@ void set_up(CLI::App* app, ExportConfig* config) {
          [config](const std::string& s) { config->max_voxels = parse_count(s, "--max-voxels"); },
          "npz, binvox, vox, ply: reject more voxels than this (default: 10^9)")
       ->type_name("N");
+  app->add_option_function<std::string>(
+         "--max-quads",
+         [config](const std::string& s) { config->max_quads = parse_count(s, "--max-quads"); },
+         "glb, obj, stl, ply-surface: reject more quads than this (default: 10^9)")
+      ->type_name("N");
+  app->add_flag("--no-merge", config->no_merge,
+                "glb, obj, stl, ply-surface: a quad for each face of a voxel, edge to edge");
   one_of(app->add_option_function<std::string>(
              "--vdb-type",
              [config](const std::string& name) {
@@ -54,6 +61,7 @@ void set_up(CLI::App* app, ExportConfig* config) {
   add_examples(app,
                {"svdag export city.svdag -o city.vdb --level 10",
                 "svdag export city.svdag -o corner.nvdb --bounds=0,0,0,5,5,5",
+                "svdag export city.svdag -o city.glb --level 9",
                 "svdag export city.svdag --format hashdag -o city"},
                "See also: svdag help formats.");
 }

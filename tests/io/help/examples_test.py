@@ -66,7 +66,8 @@ LINES = {"svdag build": "city.ply -o other.svdag -r 64", "svdag batch": "city.li
          "svdag-verify view": "city.svdag --to page",
          "svdag-trace": "city.svdag --size 16x16 --samples 1 --rounds 1"}
 # Of options of one format.
-LINES_WITH = {("svdag export", "--up"): "city.svdag -o out.vox", ("svdag import", "--up"): "city.vox -o in.svdag"}
+LINES_WITH = {("svdag export", "--up"): "city.svdag -o out.vox", ("svdag import", "--up"): "city.vox -o in.svdag",
+              ("svdag export", "--max-quads"): "city.svdag -o out.glb", ("svdag export", "--no-merge"): "city.svdag -o out.glb"}
 BY_MACHINE = ["--vectors"]  # the values depend on the processor
 
 

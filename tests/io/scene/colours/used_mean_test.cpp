@@ -8,18 +8,18 @@
 namespace svdag {
 namespace {
 
-constexpr int64_t kSide = 64;
+constexpr int64_t kTexels = 64;
 
 // Columns 0 .. 31 are black, the others white; the lower half of the white ones is cut out.
 Paint halves() {
   std::vector<uint8_t> rgba;
-  for (int64_t j = 0; j < kSide; ++j) {
-    for (int64_t i = 0; i < kSide; ++i) {
-      const uint8_t code = i < kSide / 2 ? 0 : 255;
-      rgba.insert(rgba.end(), {code, code, code, uint8_t(code != 0 && j >= kSide / 2 ? 0 : 255)});
+  for (int64_t j = 0; j < kTexels; ++j) {
+    for (int64_t i = 0; i < kTexels; ++i) {
+      const uint8_t code = i < kTexels / 2 ? 0 : 255;
+      rgba.insert(rgba.end(), {code, code, code, uint8_t(code != 0 && j >= kTexels / 2 ? 0 : 255)});
     }
   }
-  return {std::make_shared<LinearImage>(kSide, kSide, rgba, 128)};
+  return {std::make_shared<LinearImage>(kTexels, kTexels, rgba, 128)};
 }
 
 double red(const UsedMean& mean) {
