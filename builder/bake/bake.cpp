@@ -254,6 +254,7 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   RunSet set = runs.take_set();
   report.voxels = config.with_union ? set.voxels : 0;
   report.layers = table_of(split.layers, set, config.with_union);
+  if (!config.palette.empty()) apply_palette(config.palette, &report.layers);
   report.runs = set.runs.size();
 
   phases.begin("merge", kMergeShare, &report.phases.merge);
@@ -350,6 +351,8 @@ BuildReport build(const BuildConfig& config, Executor* executor, Progress* progr
     fail_usage("--colours: runs have none: merge them first, then use svdag colour");
   if (config.colours && !config.with_union)
     fail_usage("--colours: they belong to the union: leave --no-union and --frames out");
+  if (!config.palette.empty() && config.layers == LayerKind::kNone)
+    fail_usage("--palette: there are no layers to colour: add --layers");
   if (config.part && !names_run(config.output))
     fail_usage(config.output + ": a part of a grid is a run: choose an output that ends in .run");
   try {
