@@ -14,6 +14,7 @@
 #include "builder/overlap/overlap.h"
 #include "builder/split/split.h"
 #include "io/dag/format.h"
+#include "io/dag/layers/layer_palette.h"
 #include "streaming/file/file.h"
 #include "streaming/process/executor.h"
 #include "streaming/process/progress.h"
@@ -45,6 +46,7 @@ struct BuildConfig : ContentOptions {
   std::string output;                 // path; `.run` writes a run file, any other name a `.svdag`
   std::optional<CellRange> part;      // bakes only these cells; the output is a `.run`
   std::optional<ColourPassConfig> colours;  // --colours: a pass adds them to the baked file
+  LayerPalette palette;                     // --palette: the colours of layers
   FastPaths fast_paths;                     // for measurements and tests
   uint64_t memory = 0;                      // --memory in bytes; 0: half of the machine
   int cell_level = -1;                      // octree level of the cells; -1: chosen by the grid

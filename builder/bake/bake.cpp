@@ -254,6 +254,7 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   RunSet set = runs.take_set();
   report.voxels = config.with_union ? set.voxels : 0;
   report.layers = table_of(split.layers, set, config.with_union);
+  if (!config.palette.empty()) apply_palette(config.palette, &report.layers);
   report.runs = set.runs.size();
 
   phases.begin("merge", kMergeShare, &report.phases.merge);
@@ -354,6 +355,8 @@ void check_colours(const BuildConfig& config) {
 
 BuildReport build(const BuildConfig& config, Executor* executor, Progress* progress) {
   check_colours(config);
+  if (!config.palette.empty() && config.layers == LayerKind::kNone)
+    fail_usage("--palette: there are no layers to colour: add --layers");
   if (config.part && !names_run(config.output))
     fail_usage(config.output + ": a part of a grid is a run: choose an output that ends in .run");
   try {

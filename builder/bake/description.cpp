@@ -128,6 +128,8 @@ std::string describe(const BuildConfig& config, const std::vector<SceneFile>& fi
     describe_pass(*config.colours, &out);
     out << "colour error: " << config.colours->error << '/' << kColourErrorUnit << '\n';
   }
+  for (const LayerPalette::Line& line : config.palette.lines)
+    out << "palette: " << colour_text(line.colour) << ' ' << escaped(line.pattern) << '\n';
   describe_scene(config.scene, &out);
   describe_files(files, &out);
   return out.str();

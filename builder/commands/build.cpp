@@ -177,6 +177,11 @@ void print_summary(const BakeCommand& config, const BuildReport& r) {
     print_colours(*r.colours);
   }
   print_scene_notes(r.split.scene);
+  const std::vector<Layer>& layers = r.layers.layers;
+  if (r.layers.kind == LayerKind::kMaterial && layers.size() == 1 && layers.front().name.empty())
+    std::printf("  the scene has no materials: its layer is grey\n");
+  if (!config.build.palette.empty())
+    std::printf("  %s\n", palette_text(config.build.palette, r.layers).c_str());
   if (r.rule == Rule::kSolid && r.split.volume != 0)
     std::printf("  the surface encloses %s voxels%s\n",
                 format_count(uint64_t(std::abs(r.split.volume) + 0.5)).c_str(),

@@ -66,6 +66,7 @@ CLI::Option_group* add_bake_options(CLI::App* app, BakeCommand* bake) {
   BuildConfig* const build = &bake->build;
   CLI::Option_group* const grid = add_grid_options(app, build);
   add_layer_options(app, build);
+  add_palette(app, &build->palette);
   add_colours(app, &build->colours);
   add_layout(app, &build->layout);
   add_resource_options(app, &build->memory, &bake->threads, &build->scratch);

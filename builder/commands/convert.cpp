@@ -41,6 +41,8 @@ int run(const ConvertCommand& config) {
                 layout_name(selection.layout), format_bytes(header.file_bytes).c_str(),
                 100 * double(header.file_bytes) / double(before), printable(config.file).c_str(),
                 to_hex(header.content_hash).c_str());
+  if (!config.output.quiet && !selection.palette.empty())
+    std::printf("  %s\n", palette_text(selection.palette, file.layers()).c_str());
   return int(ExitCode::kOk);
 }
 

@@ -84,6 +84,7 @@ void add_convert(CLI::App* program, Command* command) {
   add_selection(app, &config->selection);
   app->add_flag("--no-colours", config->selection.without_colours,
                 "Leave out the colours: the bytes of the file before they were added");
+  add_palette(app, &config->selection.palette);
   add_no_clobber(app, &config->output.no_clobber);
   add_memory_budget(app, &config->memory);
   takes_folder(
@@ -97,8 +98,9 @@ void add_convert(CLI::App* program, Command* command) {
   app->callback([=] {
     if (app->count("--layout") == 0 && config->selection.is_everything() &&
         !config->selection.without_colours)
-      fail_usage("convert: give --layout, --layer, --level, --bounds or --no-colours");
-    if (app->count("--layout") == 0 && config->selection.without_colours)
+      fail_usage("convert: give --layout, --layer, --level, --bounds, --palette or --no-colours");
+    if (app->count("--layout") == 0 &&
+        (config->selection.without_colours || !config->selection.palette.empty()))
       config->keeps_layout = true;
     *command = *config;
   });

@@ -58,6 +58,9 @@ void add_colours(CLI::App* app, std::optional<ColourPassConfig>* colours);
 CLI::Option* add_checkpoint(CLI::App* app, double* seconds);
 // Adds --frames; before the grid and layer options.
 void add_frames(CLI::App* app, BuildConfig* build);
+// Adds --palette.
+void add_palette(CLI::App* app, LayerPalette* palette);
+
 // Adds --layers and --no-union.
 void add_layer_options(CLI::App* app, BuildConfig* build);
 // Adds the grid options of a bake; exactly one option of the returned group is required.

@@ -179,6 +179,15 @@ void add_layer_options(CLI::App* app, BuildConfig* build) {
   if (build->layers == LayerKind::kNone) no_union->needs(layers);
 }
 
+void add_palette(CLI::App* app, LayerPalette* palette) {
+  takes_files(
+      app->add_option_function<std::string>(
+          "--palette", [palette](const std::string& path) { *palette = read_palette(path); },
+          "Colours of layers: a name or pattern and #rrggbb a line; the last that matches"),
+      {".txt"})
+      ->type_name("FILE");
+}
+
 CLI::Option_group* add_grid_options(CLI::App* app, BuildConfig* build) {
   // Before -s: callbacks run in the order of definition.
   const auto unit = std::make_shared<double>(0);  // in metres

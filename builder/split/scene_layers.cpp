@@ -14,7 +14,7 @@ uint32_t SceneLayers::layer_of(const TriangleBatch& batch) {
       fail_usage(std::string("--layers ") + layer_kind_name(kind_) + ": the scene has more than " +
                  std::to_string(kMaxLayers) + " of these");
     if (is_new) {
-      layers_.push_back({std::string(name), palette_colour(name)});
+      layers_.push_back({std::string(name), is_grey_ ? kNeutralColour : palette_colour(name)});
       has_colour_.push_back(false);
     }
   }

@@ -13,7 +13,9 @@ namespace svdag {
 class SceneLayers {
  public:
   SceneLayers() = default;
-  explicit SceneLayers(LayerKind kind) : kind_(kind) {}
+  // `is_one_file`: the layer of the scene's only file is grey, since there is no other.
+  explicit SceneLayers(LayerKind kind, bool is_one_file = false)
+      : kind_(kind), is_grey_(is_one_file && kind == LayerKind::kFile) {}
 
   LayerKind kind() const { return kind_; }
   // The number of the layer of a batch. More than kMaxLayers are an Error (kUsage).
@@ -25,6 +27,7 @@ class SceneLayers {
 
  private:
   LayerKind kind_ = LayerKind::kNone;
+  bool is_grey_ = false;
   std::vector<Layer> layers_;
   std::vector<bool> has_colour_;                       // from the scene
   std::unordered_map<std::string, uint32_t> numbers_;  // by name

@@ -133,7 +133,7 @@ SplitScene split(const Scene& scene, const Grid& grid, const SplitConfig& config
     kept.cuts.clear();
   };
   double largest_move = 0;
-  result.layers = SceneLayers(config.content.layers);
+  result.layers = SceneLayers(config.content.layers, scene.config().paths.size() == 1);
   std::optional<SolidWatch> solid;
   if (is_solid(config.content.rule)) solid.emplace(scene, grid, config.content, budget);
   const LatticeBox whole = grid.closed(grid.whole());

@@ -32,7 +32,7 @@ $ svdag convert plain.svdag -o plain.svdag --layout compact
 ! svdag: plain.svdag is also an input, which is never overwritten: choose another output
 ? 2
 $ svdag convert plain.svdag -o other.svdag
-! svdag: convert: give --layout, --layer, --level, --bounds or --no-colours
+! svdag: convert: give --layout, --layer, --level, --bounds, --palette or --no-colours
 ? 2
 $ svdag build city.ply -o a.run -r 64 --layout compact
 ! svdag: --layout: a .run has no layout: choose it when merging

@@ -662,3 +662,56 @@ $ /usr/bin/python3 -B - <<'EOF'
 $ svdag import a.npz -q -o again.svdag && svdag import a.vox -q -o vox.svdag --up z && svdag info vox.svdag | sed -n 3p && svdag info again.svdag | sed -n 3p
 |   occupied: voxels 0 .. 63, 0 .. 22, 0 .. 34; (0, 0, 0) to (64, 23, 35)
 |   occupied: voxels 0 .. 63, 0 .. 22, 0 .. 34; (-16.1631434, -0.563137279, -8.66314338) to (16.1631434, 11.054122, 9.01529469)
+
+## palette
+# --palette sets the colours of layers by name, at a bake and later: the same bytes.
+$ printf 'v 0 0 0\nv 8 0 0\nv 0 8 0\nv 8 8 8\nv 0 0 8\nf 4 3 5\no dry leaf\nf 1 2 3\no leaf-1\nf 1 4 5\no leaf-2\nf 3 4 5\n' > a.obj
+$ printf '# the studio\n\n*\t\t#102030\nleaf*    #3a7d2c\r\n  leaf-2 #FFFFFF\ndry leaf #000001\nstone* #777777\n' > palette.txt
+$ svdag build a.obj -o a.svdag -r 64 --layers object -q
+$ svdag build a.obj -o b.svdag -r 64 --layers object --palette palette.txt | sed 's/, [0-9.]* s$//'
+| b.svdag: 64^3, 4 triangles, 14,296 voxels, 107 nodes, 3.8 KiB (2.15 bits per voxel)
+|   palette: the colours of 4 of 4 layers; no layer is named stone*
+$ svdag info b.svdag --layers | tail -4
+|                6,238             13              0  #102030  (unnamed)
+|                2,143             13              4  #000001  dry leaf
+|                6,301             29              8  #3a7d2c  leaf-1
+|                6,238             13              0  #ffffff  leaf-2
+$ svdag convert a.svdag -o c.svdag --palette palette.txt | tail -1
+|   palette: the colours of 4 of 4 layers; no layer is named stone*
+$ cmp b.svdag c.svdag && svdag-verify diff a.svdag b.svdag -q && echo "only colours differ"
+| only colours differ
+$ svdag convert a.svdag -o c.svdag --palette palette.txt --layer 'leaf*' -q && svdag info c.svdag --layers | tail -2
+|                6,301             29              7  #3a7d2c  leaf-1
+|                6,238             13              3  #ffffff  leaf-2
+# A compact file stays compact; colours of voxels stay.
+$ svdag convert a.svdag -o compact.svdag --layout compact -q && svdag convert compact.svdag -o d.svdag --palette palette.txt -q && svdag info d.svdag | grep -o compact
+| compact
+$ svdag convert d.svdag -o e.svdag --layout plain -q && cmp e.svdag b.svdag
+$ svdag build a.obj -o f.svdag -r 64 --layers object --palette palette.txt --colours -q && svdag convert f.svdag -o g.svdag --no-colours -q && cmp g.svdag b.svdag
+$ svdag info f.svdag | tail -1 && : > none.txt && svdag convert f.svdag -o h.svdag --palette none.txt -q && svdag info h.svdag | tail -1
+|   colour hash  fc5a234f8d4b526868d2b8e17d3a654e
+|   colour hash  fc5a234f8d4b526868d2b8e17d3a654e
+# What is not a palette, or has no layers to colour.
+$ svdag build a.obj -o x.svdag -r 64 --palette palette.txt
+! svdag: --palette: there are no layers to colour: add --layers
+? 2
+$ svdag convert a.svdag -o x.svdag --palette missing.txt
+! svdag: missing.txt: cannot be opened: no such file or folder
+? 3
+$ printf 'leaf #3a7d2c\nstone\n' > wrong.txt && svdag convert a.svdag -o x.svdag --palette wrong.txt
+! svdag: wrong.txt: line 2 is not a name and a colour, such as: leaf* #3a7d2c
+? 3
+$ printf 'stone #12345\n' > wrong.txt && svdag convert a.svdag -o x.svdag --palette wrong.txt
+! svdag: wrong.txt: line 1 is not a name and a colour, such as: leaf* #3a7d2c
+? 3
+$ svdag build a.obj -o plain.svdag -r 64 -q && svdag convert plain.svdag -o x.svdag --palette palette.txt
+! svdag: --palette: the file has no layers (svdag build --layers)
+? 2
+
+## one_grey_layer
+# A scene without materials, and one of a single file, are grey.
+$ printf 'v 0 0 0\nv 8 0 0\nv 0 8 0\nf 1 2 3\n' > a.obj
+$ for kind in material file; do svdag build a.obj -o a.svdag -r 64 --layers $kind | grep grey || true; svdag info a.svdag --layers | tail -1; done
+|   the scene has no materials: its layer is grey
+|                2,143             13              0  #bcb5aa  (unnamed)
+|                2,143             13              0  #bcb5aa  a.obj

@@ -108,3 +108,12 @@ $ cmp -s front.png back.png
 ? 1
 $ ls *.png | wc -l
 | 19
+
+## verify_render_in_matter
+# A camera in a voxel is reported; what is cut away is not in the way.
+$ printf 'v 0 0 0\nv 8 0 0\nv 0 8 0\nf 1 2 3\n' > a.obj
+$ svdag build a.obj -o a.svdag -s 1 --origin 0,0,0 -q
+$ svdag-verify render a.svdag -o a.png --size 32x18 --camera=1.5,1.5,0.5,9,9,9 -q
+! svdag-verify: the camera is in matter: voxel 17, 17, 16 is all that it sees
+$ svdag-verify render a.svdag -o a.png --size 32x18 --camera=1.5,1.5,0.5,9,9,9 --clip=3,0,-1,8,8,1 -q
+$ svdag-verify render a.svdag -o a.png --size 32x18 --camera=1.5,1.5,1.5,9,9,9 -q

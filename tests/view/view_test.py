@@ -511,6 +511,31 @@ class Folders(unittest.TestCase):
             self.assertLess(differing(page.hits(), traced(self.file, camera)), 0.001)
             self.assertEqual(page.errors(), [])
 
+    def test_a_folder_shows_the_colours_that_the_server_shows(self):
+        """At 1K³, of tiles of two levels, some of which show coarser colours."""
+        for file in [baked("damaged_helmet.glb", "scan", "-r", "1K", "--colours", "--colour-level", "10"), coloured()]:
+            folder = FOLDER / f"{file.stem}-site"
+            printed = program("svdag-verify", "view", file, "--to", folder).splitlines()
+            estimate, size = (float(line.split()[-2]) for line in printed[:2])
+            self.assertLess(abs(size / estimate - 1), 0.5)
+            before = {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+            self.assertGreater(len(list((folder / "colours").iterdir())), 4)
+            program("svdag-verify", "view", file, "--to", folder, "-q")
+            self.assertEqual({path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}, before)
+            camera, shown = cameras(file)[0], []
+            handler = functools.partial(QuietHandler, directory=folder)
+            with Server(file) as server, http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler) as web:
+                threading.Thread(target=web.serve_forever, daemon=True).start()
+                for url in [server.url, f"http://127.0.0.1:{web.server_port}/"]:
+                    with Page(url, camera, detail=0) as page:
+                        page.settle()
+                        self.assertEqual(page.errors(), [])
+                        shown.append((page.hits(), *page.colours()))
+                web.shutdown()
+            for served, of_folder in zip(*shown):
+                self.assertTrue(numpy.array_equal(served, of_folder))
+            self.assertGreater(shown[1][1].mean(), 0.02)  # pixels with a colour
+
     def test_its_size_is_printed_before(self):
         first, second = self.printed.splitlines()[:2]
         self.assertIn("about", first)

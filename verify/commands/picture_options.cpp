@@ -24,7 +24,7 @@ void add_render(CLI::App* app, VerifyCommand* parsed) {
   add_selection(command, &config->selection, false);
   add_camera(command, &config->view);
   add_rays(command, &config->view,
-           {"over the left shoulder", "a twentieth of the scene's diagonal",
+           {"over the left shoulder", "soft 16, ao 64", "a twentieth of the scene's diagonal",
             "ao 9, soft 0, which is exact"});
   command
       ->add_option(

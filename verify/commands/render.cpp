@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "io/dag/cube_at.h"
 #include "io/dag/dag_file.h"
 #include "io/dag/open_dag.h"
 #include "streaming/error.h"
@@ -51,10 +52,27 @@ void apply(const RenderCommandConfig& config, const DagView& dag, const Camera& 
   Secondary& secondary = shading->secondary;
   secondary.reach = 0.05 * length(box.max - box.min);
   secondary.cut.spread = ao ? cone_spread(9) : 0;
+  secondary.samples = ao ? 64 : 16;  // 16 of the whole sky are noise
   apply_rays(config.view, dag, &secondary);
   if (!ao && shading->mode != ShadeMode::kSoft) secondary.cut.spread = 0;
   if (config.level) shading->primary.level = secondary.cut.level = uint32_t(level);
   if (shading->mode == ShadeMode::kLevel) shading->primary.spread = shading->pixel;
+}
+
+// Reports a camera in a voxel that is set, since all it sees is that voxel.
+void report_camera_in_matter(const DagView& dag, const Vec3& camera, const VoxelBox& shown) {
+  const double side = double(uint64_t(1) << dag.levels);
+  for (int a = 0; a < 3; ++a) {
+    if (!(camera[a] >= 0 && camera[a] < side)) return;
+  }
+  const LatticePoint voxel(camera[0], camera[1], camera[2]);
+  const bool is_shown = shown.holds({voxel, voxel + int64_t(1)});
+  if (is_shown && cube_at(dag, voxel).set)
+    std::fprintf(stderr,
+                 "svdag-verify: the camera is in matter: voxel %lld, %lld, %lld is all that it "
+                 "sees\n",
+                 static_cast<long long>(voxel.x), static_cast<long long>(voxel.y),
+                 static_cast<long long>(voxel.z));
 }
 
 // The voxels that --clip shows.
@@ -169,6 +187,7 @@ int run(const RenderCommandConfig& config) {
   const Camera first = first_camera(config, file.view(), box);
   if (!config.slice.empty()) slice(config.slice, file.view(), first.position, &shown);
   if (config.clip || !config.slice.empty()) picture.clip = clip_box(shown);
+  if (!config.frames && !config.fly) report_camera_in_matter(file.view(), first.position, shown);
   // The light does not move with the camera.
   const Light light = make_shading(mode, file.view(), first, up, box).light;
   ParallelExecutor executor(threads_or_all(config.common.threads));

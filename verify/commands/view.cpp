@@ -62,17 +62,17 @@ void open_browser(const std::string& page) {
 }
 
 int write_to(const std::string& folder, const ViewConfig& config, const DagFile& file,
-             const TileCutter& cutter, int up) {
+             const TileCutter& cutter, const DagColours* colours, int up) {
   ParallelExecutor executor(threads_or_all(config.common.threads));
   Progress progress(config.common.progress);
-  const TileList list = list_tiles(cutter);
-  const uint64_t estimate = estimate_bytes(cutter, list, executor);
+  const TileList list = list_tiles(cutter, colours != nullptr);
+  const uint64_t estimate = estimate_bytes(cutter, list, colours, executor);
   if (!config.common.quiet) {
     std::printf("%s: %s, about %s\n", printable(folder).c_str(),
                 format_count(list.cubes.size(), "tile").c_str(), format_bytes(estimate).c_str());
     std::fflush(stdout);
   }
-  const uint64_t bytes = write_folder(folder, file, cutter, list, up, executor, progress);
+  const uint64_t bytes = write_folder(folder, file, cutter, list, colours, up, executor, progress);
   progress.finish();
   if (!config.common.quiet)
     std::printf("%s: written, %s\n", printable(folder).c_str(), format_bytes(bytes).c_str());
@@ -90,14 +90,15 @@ int view(const ViewConfig& config) {
     fail_usage("--level: " + file.path() + " has levels 3 to " + std::to_string(levels) +
                " to show");
   const TileCutter cutter(file, uint32_t(level));
-  if (config.to) return write_to(*config.to, config, file, cutter, config.up);
-  server.up = config.up;
-  server.keep = config.keep;
-  std::optional<RedirectPage> page;  // until the end: a browser may take long to start
   MemoryBudget budget(memory_or_default(0));
   std::optional<DagColours> colours;
   if (file.has_colours()) colours.emplace(file, &budget);
-  serve(file, cutter, colours ? &*colours : nullptr, server, [&](const std::string& url) {
+  const DagColours* const shown = colours ? &*colours : nullptr;
+  if (config.to) return write_to(*config.to, config, file, cutter, shown, config.up);
+  server.up = config.up;
+  server.keep = config.keep;
+  std::optional<RedirectPage> page;  // until the end: a browser may take long to start
+  serve(file, cutter, shown, server, [&](const std::string& url) {
     std::printf("%s\n", url.c_str());
     std::fflush(stdout);
     if (config.open && has_desktop()) open_browser(page.emplace(url).path());

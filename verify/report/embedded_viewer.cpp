@@ -36,15 +36,10 @@ std::optional<std::string> tiles_json(const TileCutter& cutter, uint64_t max_byt
 
 // The colours of the root's tile, of the level that the page chooses.
 std::string colours_text(const DagColours& colours, const TileCutter& cutter) {
-  const uint32_t finest = colours.view().level();
-  uint32_t level = std::min(finest, cutter.tile_levels());
-  for (level -= (finest - level) % 2; level >= 1 && level <= finest; level -= 2) {
-    const auto found = colours_of_tile(colours, 1, level, kMaxColours);
-    if (!found) continue;
-    const std::string packed = compressed(*found);
-    return base64(std::as_bytes(std::span(packed)));
-  }
-  return {};
+  const auto found = colours_in_page(colours, 1, cutter.tile_levels(), 0, kMaxColours);
+  if (!found) return {};
+  const std::string packed = compressed(found->colours);
+  return base64(std::as_bytes(std::span(packed)));
 }
 
 // Runs in the page.
@@ -90,7 +85,8 @@ EmbeddedViewer embed_viewer(const DagFile& file, int up, uint64_t max_bytes, Exe
   viewer.html =
       "<div class=\"viewer\" id=\"svdag\" hidden></div>\n"
       "<script type=\"application/json\" id=\"scene\">" +
-      scene_json(file, cutter, {up, 1, false, colours ? colours->view().level() : 0, kMaxColours}) +
+      scene_json(file, cutter,
+                 {up, 1, false, colours ? colours->view().level() : 0, kMaxColours, true}) +
       "</script>\n<script type=\"application/json\" id=\"tiles\">" + tiles + "</script>\n";
   if (colours)
     viewer.html += "<script type=\"application/json\" id=\"colours\">\"" +

@@ -15,19 +15,6 @@ bool contains(const VoxelBounds& box, const Vec3& point) {
   return inside;
 }
 
-// Distance from `from` to the nearest voxel in a direction of length 1, or to the end of the box.
-double free_distance(const DagView& dag, const VoxelBounds& box, const Vec3& from,
-                     const Vec3& direction) {
-  double end = 1e300;
-  for (int a = 0; a < 3; ++a) {
-    if (direction[a] == 0) continue;
-    const double side = direction[a] > 0 ? box.max[a] : box.min[a];
-    end = std::min(end, (side - from[a]) / direction[a]);
-  }
-  const Hit wall = trace_closest(dag, {from, direction}, {0, end});
-  return wall.found ? wall.t : end;
-}
-
 // Unit vectors around a point, evenly spaced (a Fibonacci sphere).
 std::vector<Vec3> sphere_directions(int count) {
   std::vector<Vec3> directions;
@@ -38,55 +25,80 @@ std::vector<Vec3> sphere_directions(int count) {
   return directions;
 }
 
-struct InsidePoint {
+struct InsideView {
   Vec3 point{};
-  Vec3 view{};       // horizontal direction of the longest view
+  Vec3 forward{};    // horizontal
   double score = 0;  // 0: not in empty space
 };
 
-// Prefers points that are enclosed by voxels, with space around them and a floor below.
-InsidePoint score_point(const DagView& dag, const VoxelBounds& box, int up, const Vec3& point,
-                        const std::vector<Vec3>& directions) {
-  constexpr int kViews = 16;
-  constexpr double kClearance = 2;  // voxels
-  constexpr double kAmple = 0.1;    // median view, of the size of the box
-  const Vec3 size = box.max - box.min;
+constexpr double kWideFov = 75;  // degrees
+
+// What a view shows, 0 to 1: how far it goes, unless much of it is close, or it looks down at
+// nothing, as from below the ground.
+double score_view(const DagView& dag, const Vec3& size, int up, const Vec3& point,
+                  const Vec3& forward) {
+  constexpr int kAcross = 9, kUpwards = 5;
+  constexpr double kFar = 0.4, kNear = 0.06;  // of the larger horizontal side
+  constexpr double kSky = 0.15;               // what a ray upwards counts that hits nothing
   const int x = (up + 1) % 3, y = (up + 2) % 3;
-  InsidePoint scored{point};
+  const double side = std::max(size[x], size[y]), slope = std::tan(kWideFov / 2 * kPi / 180);
+  Vec3 right{};
+  right[x] = forward[y];
+  right[y] = -forward[x];
+  double depth = 0;
+  int bad = 0;
+  for (int i = 0; i < kAcross; ++i) {
+    for (int j = 0; j < kUpwards; ++j) {
+      Vec3 direction = forward + right * (slope * (2 * (i + 0.5) / kAcross - 1));
+      direction[up] = 0.6 * slope * (2 * (j + 0.5) / kUpwards - 1);
+      const Hit hit = trace_closest(dag, {point, normalized(direction)});
+      depth += hit.found ? std::min(1.0, hit.t / (kFar * side)) : kSky;
+      bad += hit.found ? hit.t < kNear * side : direction[up] < 0;
+    }
+  }
+  const double rays = kAcross * kUpwards, open = 1 - bad / rays;
+  return depth / rays * open * open;
+}
+
+// Prefers points that are enclosed by voxels, not far above a floor, and among their views the one
+// that shows most.
+InsideView best_view(const DagView& dag, const VoxelBounds& box, int up, const Vec3& point,
+                     const std::vector<Vec3>& directions) {
+  constexpr int kViews = 12;
+  constexpr double kClearance = 2;  // voxels
+  constexpr double kLow = 0.25;     // above a floor, of the height of the box
+  const Vec3 size = box.max - box.min;
+  InsideView best{point};
   int blocked = 0;
   for (const Vec3& direction : directions) {
     const Hit wall = trace_closest(dag, {point, direction});
-    if (wall.found && wall.t < kClearance) return scored;
+    if (wall.found && wall.t < kClearance) return best;
     blocked += wall.found;
   }
-  std::vector<double> views;
-  for (int i = 0; i < kViews; ++i) {
-    const double angle = 2 * kPi * i / kViews;
-    Vec3 view{};
-    view[x] = std::cos(angle);
-    view[y] = std::sin(angle);
-    views.push_back(free_distance(dag, box, point, view));
-    if (views.back() == *std::max_element(views.begin(), views.end())) scored.view = view;
-  }
-  std::nth_element(views.begin(), views.begin() + kViews / 2, views.end());
-  const double space = std::min(1.0, views[kViews / 2] / (kAmple * std::max(size[x], size[y])));
   Vec3 down{};
   down[up] = -1;
-  const double floor = trace_any(dag, {point, down}) ? 1 : 0.3;
+  const Hit floor = trace_closest(dag, {point, down});
+  const double standing = !floor.found ? 0.1 : floor.t < kLow * size[up] ? 1 : 0.6;
   const double enclosed = double(blocked) / double(directions.size());
-  scored.score = floor * enclosed * enclosed * space;
-  return scored;
+  for (int i = 0; i < kViews; ++i) {
+    const double angle = 2 * kPi * i / kViews;
+    Vec3 forward{};
+    forward[(up + 1) % 3] = std::cos(angle);
+    forward[(up + 2) % 3] = std::sin(angle);
+    const double score = standing * enclosed * enclosed * score_view(dag, size, up, point, forward);
+    if (score > best.score) best = {point, forward, score};
+  }
+  return best;
 }
 
-// From the best of 196 points, some way back from its longest view.
+// The best of 196 points.
 Camera inside_view(const DagView& dag, const VoxelBounds& box, int up, double aspect) {
-  constexpr double kWide = 75, kBack = 0.6;
   constexpr double kHeights[] = {0.3, 0.15, 0.5, 0.75},
                    kPositions[] = {0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8};
   const std::vector<Vec3> directions = sphere_directions(64);
   const Vec3 size = box.max - box.min;
-  InsidePoint best{(box.min + box.max) * 0.5};
-  best.view[(up + 1) % 3] = 1;
+  InsideView best{(box.min + box.max) * 0.5};
+  best.forward[(up + 1) % 3] = 1;
   for (const double height : kHeights) {
     for (const double x : kPositions) {
       for (const double y : kPositions) {
@@ -94,13 +106,12 @@ Camera inside_view(const DagView& dag, const VoxelBounds& box, int up, double as
         point[up] += height * size[up];
         point[(up + 1) % 3] += x * size[(up + 1) % 3];
         point[(up + 2) % 3] += y * size[(up + 2) % 3];
-        const InsidePoint scored = score_point(dag, box, up, point, directions);
-        if (scored.score > best.score) best = scored;
+        const InsideView view = best_view(dag, box, up, point, directions);
+        if (view.score > best.score) best = view;
       }
     }
   }
-  const double back = kBack * free_distance(dag, box, best.point, best.view * -1);
-  return look_at(best.point - best.view * back, best.point + best.view, up, kWide, aspect);
+  return look_at(best.point, best.point + best.forward, up, kWideFov, aspect);
 }
 
 }  // namespace

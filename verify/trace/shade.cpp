@@ -100,8 +100,11 @@ Vec3 shown_normal(const Shading& shading, const Ray& ray, const Hit& hit, const 
 }
 
 double grid_line(const Shading& shading, const Ray& ray, const Hit& hit) {
-  constexpr double kDark = 0.55, kMinPixels = 6;
-  if (!shading.grid_lines || !hit.found || pixels_across(shading, hit) < kMinPixels) return 1;
+  constexpr double kDark = 0.55, kMinPixels = 6, kAllPixels = 16;  // lines fade in between
+  if (!shading.grid_lines || !hit.found) return 1;
+  const double shown =
+      std::min(1.0, (pixels_across(shading, hit) - kMinPixels) / (kAllPixels - kMinPixels));
+  if (shown <= 0) return 1;
   const double side = double(1U << (shading.levels - hit.level));
   const Vec3 point = ray.origin + ray.direction * hit.t;
   double edge = side;  // distance to the nearest edge of the face
@@ -111,7 +114,7 @@ double grid_line(const Shading& shading, const Ray& ray, const Hit& hit) {
     edge = std::min(edge, side * std::min(at, 1 - at));
   }
   const double pixels = edge / (shading.pixel * hit.t);
-  return pixels < 0.5 ? kDark : 1;
+  return pixels < 0.5 ? 1 - (1 - kDark) * shown : 1;
 }
 
 Vec3 section_colour(const Shading& shading, const Surfel& surfel) {

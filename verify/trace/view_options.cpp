@@ -98,7 +98,7 @@ void add_rays(CLI::App* app, ViewOptions* view, const RayDefaults& defaults) {
   from_to(app->add_option("--samples", view->samples,
                           "soft, ao: rays to the light or sky for each camera ray, 1 to 4096 "
                           "(default " +
-                              std::to_string(view->samples) + ")"),
+                              defaults.samples + ")"),
           1, 4096)
       ->type_name("N");
   app->add_option_function<std::string>(
@@ -147,7 +147,7 @@ void apply_light(const ViewOptions& view, const DagView& dag, Light* light) {
 }
 
 void apply_rays(const ViewOptions& view, const DagView& dag, Secondary* secondary) {
-  secondary->samples = view.samples;
+  if (view.samples) secondary->samples = *view.samples;
   if (view.reach > 0) secondary->reach = view.reach / dag.voxel_size;
   if (view.cone) secondary->cut.spread = cone_spread(*view.cone);
 }

@@ -21,19 +21,19 @@ struct PictureSize {
 
 struct ViewOptions {
   PictureSize size;
-  std::string preset = "iso";  // of preset_camera
-  std::vector<double> camera;  // px,py,pz,tx,ty,tz[,fov]; empty: the preset
-  int up = 1;                  // axis
-  std::vector<double> light;   // x,y,z[,radius]; empty: the program's
-  uint32_t samples = 16;       // rays to the light, and to the sky
-  double reach = 0;            // length of ambient occlusion rays; 0: the program's
+  std::string preset = "iso";       // of preset_camera
+  std::vector<double> camera;       // px,py,pz,tx,ty,tz[,fov]; empty: the preset
+  int up = 1;                       // axis
+  std::vector<double> light;        // x,y,z[,radius]; empty: the program's
+  std::optional<uint32_t> samples;  // rays to the light, and to the sky; none: the program's
+  double reach = 0;                 // length of ambient occlusion rays; 0: the program's
   std::optional<double> cone;  // half the angle of the rays' cones, in degrees; 0: exact; none: the
                                // program's
 };
 
-// The defaults of --light, --reach and --cone in the help.
+// The defaults of --light, --samples, --reach and --cone in the help.
 struct RayDefaults {
-  std::string light, reach, cone;
+  std::string light, samples, reach, cone;
 };
 
 // --size. `pixels`: "Pixels of a picture".
@@ -49,7 +49,7 @@ void add_rays(CLI::App* app, ViewOptions* view, const RayDefaults& defaults);
 Camera camera_of(const ViewOptions& view, const DagView& dag, const VoxelBounds& box);
 // Replaces *light by that of --light, if it was given. Error: kUsage.
 void apply_light(const ViewOptions& view, const DagView& dag, Light* light);
-// Applies --samples, and --reach and --cone if they were given.
+// Applies --samples, --reach and --cone if they were given.
 void apply_rays(const ViewOptions& view, const DagView& dag, Secondary* secondary);
 // The spread of rays in a cone of half the angle `degrees`.
 double cone_spread(double degrees);

@@ -1,5 +1,6 @@
 #include "verify/view/folder.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <charconv>
@@ -38,21 +39,37 @@ namespace fs = std::filesystem;
   fail_usage(path.string() + ": is not a file of this page: remove it, or choose another folder");
 }
 
-// Whether `name` is that of a tile: 1 .. count.
-bool is_tile_name(const std::string& name, uint64_t count) {
+// The name of a tile's file.
+uint64_t name_of(const TileList& list, size_t i) {
+  return list.paths.empty() ? i + 1 : list.paths[i];
+}
+
+// Whether `name` is that of a tile: 1 .. count, or a path.
+bool is_tile_name(const std::string& name, const TileList& list) {
   uint64_t id = 0;
   std::from_chars(name.data(), name.data() + name.size(), id);
-  return id >= 1 && id <= count && name == std::to_string(id);
+  const bool is_one = list.paths.empty() ? id >= 1 && id <= list.cubes.size()
+                                         : std::ranges::binary_search(list.paths, id);
+  return is_one && name == std::to_string(id);
+}
+
+// Checks that a subfolder holds entries of this type that are named as tiles.
+void check_names(const fs::path& folder, fs::file_type type, const TileList& list) {
+  if (!fs::exists(folder)) return;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.symlink_status().type() != type || !is_tile_name(entry.path().filename(), list))
+      fail_foreign(entry.path());
+  }
 }
 
 // Checks that the folder of an earlier run holds only files that this run writes as well.
-void check_folder(const std::string& folder, uint64_t tiles) {
+void check_folder(const std::string& folder, const TileList& list) {
   std::map<std::string, std::string_view> pages;
   for (const PageFile& page : page_files()) pages.emplace(page.name, page.text);
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename();
-    if (name == "scene.json" ||
-        (name == "tiles" && entry.symlink_status().type() == fs::file_type::directory))
+    if (name == "scene.json" || ((name == "tiles" || (name == "colours" && !list.paths.empty())) &&
+                                 entry.symlink_status().type() == fs::file_type::directory))
       continue;
     const auto page = pages.find(name);
     if (page == pages.end() || entry.symlink_status().type() != fs::file_type::regular)
@@ -63,29 +80,32 @@ void check_folder(const std::string& folder, uint64_t tiles) {
                  ": differs from the page that this program writes: remove it, or choose another "
                  "folder");
   }
-  if (!fs::exists(folder + "/tiles")) return;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder + "/tiles")) {
-    if (entry.symlink_status().type() != fs::file_type::regular ||
-        !is_tile_name(entry.path().filename(), tiles))
-      fail_foreign(entry.path());
-  }
+  check_names(folder + "/tiles", fs::file_type::regular, list);
+  check_names(folder + "/colours", fs::file_type::directory, list);
 }
 
 // Creates the folder and its scene.json; accepts one of an earlier run for the same scene.
-void open_folder(const std::string& folder, const std::string& scene, uint64_t tiles) {
+void open_folder(const std::string& folder, const std::string& scene, const TileList& list) {
   const std::string scene_path = folder + "/scene.json";
   create_folder(folder);
   if (fs::exists(scene_path)) {
     const File file = File::open_read(scene_path);
     if (file.size() != scene.size() || file.text() != scene)
       fail_usage(folder + ": holds the page of another scene or level; choose another folder");
-    check_folder(folder, tiles);
+    check_folder(folder, list);
   } else if (!fs::is_empty(folder)) {
     fail_usage(folder + ": is not empty and not such a page; choose another folder");
   } else {
     write_whole(folder, "scene.json", scene);
   }
   create_folder(folder + "/tiles");
+}
+
+// The end of the level of cube `begin`.
+size_t level_end(const TileList& list, size_t begin) {
+  size_t end = begin;
+  while (end < list.cubes.size() && list.cubes[end].level == list.cubes[begin].level) ++end;
+  return end;
 }
 
 // The bytes of a tile that an earlier run has written; 0 without a valid one.
@@ -103,9 +123,14 @@ std::string key_of(const TileCube& cube) {
 
 }  // namespace
 
-TileList list_tiles(const TileCutter& cutter) {
+TileList list_tiles(const TileCutter& cutter, bool by_path) {
   TileList list;
-  if (TileCube root = cutter.root(); !root.nodes.empty()) list.cubes.push_back(std::move(root));
+  const auto add = [&](TileCube cube, uint64_t path) {
+    list.cubes.push_back(std::move(cube));
+    if (by_path) list.paths.push_back(path);
+    return by_path ? path : list.cubes.size();
+  };
+  if (TileCube root = cutter.root(); !root.nodes.empty()) add(std::move(root), 1);
   std::unordered_map<std::string, uint64_t> numbers;  // of the level below that of cube i
   for (size_t i = 0; i < list.cubes.size(); ++i) {
     check_interrupt();
@@ -115,8 +140,12 @@ TileList list_tiles(const TileCutter& cutter) {
     for (unsigned c = 0; c < 8; ++c) {
       TileCube octant = cutter.octant(list.cubes[i], c);
       if (octant.nodes.empty() || cutter.is_full(octant)) continue;
+      if (by_path) {
+        list.finer[i][c] = add(std::move(octant), list.paths[i] << 3 | c);
+        continue;
+      }
       const auto [at, is_new] = numbers.emplace(key_of(octant), list.cubes.size() + 1);
-      if (is_new) list.cubes.push_back(std::move(octant));
+      if (is_new) add(std::move(octant), 0);
       list.finer[i][c] = at->second;
     }
   }
@@ -129,15 +158,20 @@ std::string tile_of_list(const TileCutter& cutter, const TileList& list, uint64_
   return encode_tile(tile);
 }
 
-uint64_t estimate_bytes(const TileCutter& cutter, const TileList& list, Executor& executor) {
+uint64_t estimate_bytes(const TileCutter& cutter, const TileList& list, const DagColours* colours,
+                        Executor& executor) {
   double bytes = 0;
   for (size_t begin = 0, end = 0; begin < list.cubes.size(); begin = end) {
-    while (end < list.cubes.size() && list.cubes[end].level == list.cubes[begin].level) ++end;
+    end = level_end(list, begin);
     const size_t count = end - begin, sample = std::min(count, kSample);
     std::atomic<uint64_t> sampled = 0;
     executor.for_each(sample, [&](size_t, size_t i) {
       check_interrupt();
-      sampled += tile_of_list(cutter, list, begin + (2 * i + 1) * count / (2 * sample) + 1).size();
+      const size_t tile = begin + (2 * i + 1) * count / (2 * sample);
+      sampled += tile_of_list(cutter, list, tile + 1).size();
+      if (colours == nullptr) return;
+      if (const auto own = colours_in_page(*colours, list.paths[tile], cutter.tile_levels()))
+        sampled += compressed(own->colours).size();
     });
     bytes += double(sampled) * double(count) / double(sample);
   }
@@ -145,13 +179,15 @@ uint64_t estimate_bytes(const TileCutter& cutter, const TileList& list, Executor
 }
 
 uint64_t write_folder(const std::string& folder, const DagFile& file, const TileCutter& cutter,
-                      const TileList& list, int up, Executor& executor, Progress& progress) {
-  open_folder(folder, scene_json(file, cutter, {up, 1, false}), list.cubes.size());
+                      const TileList& list, const DagColours* colours, int up, Executor& executor,
+                      Progress& progress) {
+  SVDAG_ASSERT((colours == nullptr) == list.paths.empty());
+  const uint32_t colour_level = colours != nullptr ? colours->view().level() : 0;
+  open_folder(folder, scene_json(file, cutter, {up, 1, false, colour_level}), list);
   progress.phase("Tiles", list.cubes.size());
   std::atomic<uint64_t> bytes = 0;
-  executor.for_each(list.cubes.size(), [&](size_t, size_t i) {
-    check_interrupt();
-    const std::string name = "tiles/" + std::to_string(i + 1);
+  const auto write_tile = [&](size_t i) {
+    const std::string name = "tiles/" + std::to_string(name_of(list, i));
     uint64_t size = valid_bytes(folder + "/" + name);
     if (size == 0) {
       const std::string text = tile_of_list(cutter, list, i + 1);
@@ -159,8 +195,31 @@ uint64_t write_folder(const std::string& folder, const DagFile& file, const Tile
       size = text.size();
     }
     bytes += size;
-    progress.advance();
-  });
+  };
+  std::vector<uint32_t> finest(colours != nullptr ? list.cubes.size() : 0);  // shown, up to here
+  const auto write_colours = [&](size_t i) {
+    const uint64_t path = list.paths[i];
+    if (i > 0)
+      finest[i] =
+          finest[size_t(std::ranges::lower_bound(list.paths, path >> 3) - list.paths.begin())];
+    const auto own = colours_in_page(*colours, path, cutter.tile_levels(), finest[i]);
+    if (!own) return;
+    finest[i] = own->level;
+    const std::string of_tile = "colours/" + std::to_string(path);
+    create_folder(folder + "/" + of_tile);
+    const std::string text = compressed(own->colours);
+    write_whole(folder, of_tile + "/" + std::to_string(own->level), text);
+    bytes += text.size();
+  };
+  for (size_t begin = 0, end = 0; begin < list.cubes.size(); begin = end) {
+    end = level_end(list, begin);
+    executor.for_each(end - begin, [&](size_t, size_t i) {
+      check_interrupt();
+      write_tile(begin + i);
+      if (colours != nullptr) write_colours(begin + i);
+      progress.advance();
+    });
+  }
   for (const PageFile& page : page_files()) write_whole(folder, std::string(page.name), page.text);
   return bytes;
 }

@@ -54,7 +54,7 @@ std::string scene_json(const DagFile& file, const TileCutter& cutter, const Scen
   if (options.colour_level > 0)
     scene["colours"] = {{"level", options.colour_level},
                         {"max", options.max_colours},
-                        {"root_only", !options.served}};
+                        {"root_only", options.root_colours}};
   const std::string text = scene.dump(-1, ' ', true, Json::error_handler_t::replace);
   std::string safe;
   for (const char c : text) safe += c == '<' ? std::string("\\u003c") : std::string(1, c);

@@ -28,6 +28,7 @@ struct SceneOfPage {
   bool served = false;        // the page keeps a request open while it is shown
   uint32_t colour_level = 0;  // K, if tiles have colours (tile_colours.h)
   uint32_t max_colours = kMaxTileColours;
+  bool root_colours = false;  // only the root has some
 };
 
 // The scene as JSON, without "<", so that a page can hold it.

@@ -1,5 +1,6 @@
 #include "verify/view/tile_colours.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace svdag {
@@ -67,6 +68,21 @@ std::optional<std::vector<uint32_t>> colours_of_tile(const DagColours& colours, 
   ColourWalk walk(colours, level, max_colours);
   if (!walk.descend(path, bits / 3)) return {};
   return walk.collect();
+}
+
+std::optional<TileColours> colours_in_page(const DagColours& colours, uint64_t path,
+                                           uint32_t tile_levels, uint32_t coarser,
+                                           uint32_t max_colours) {
+  const uint32_t finest = colours.view().level();
+  const uint32_t tile_level = (uint32_t(std::bit_width(path)) - 1) / 3;
+  uint32_t level = std::min(finest, tile_level + tile_levels);
+  level -= (finest - level) % 2;
+  const uint32_t coarsest = std::max({1U, tile_level, coarser + 1});
+  for (; level >= coarsest && level <= finest; level -= 2) {  // or below 0
+    if (auto found = colours_of_tile(colours, path, level, max_colours))
+      return TileColours{level, *found};
+  }
+  return std::nullopt;
 }
 
 }  // namespace svdag

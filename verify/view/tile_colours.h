@@ -24,4 +24,14 @@ std::optional<std::vector<uint32_t>> colours_of_tile(const DagColours& colours, 
                                                      uint32_t level,
                                                      uint32_t max_colours = kMaxTileColours);
 
+// The level at which a tile of `tile_levels` levels has colours in the page, and these: the finest
+// that exists and has room, if it is finer than `coarser`, that of the tiles above (0: none).
+struct TileColours {
+  uint32_t level;
+  std::vector<uint32_t> colours;
+};
+std::optional<TileColours> colours_in_page(const DagColours& colours, uint64_t path,
+                                           uint32_t tile_levels, uint32_t coarser = 0,
+                                           uint32_t max_colours = kMaxTileColours);
+
 }  // namespace svdag

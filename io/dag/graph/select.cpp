@@ -90,6 +90,7 @@ GraphOfSets graph_of(const DagFile& file, const Selection& selection, MemoryBudg
       result.layers.has_union = true;
     }
   }
+  if (!selection.palette.empty()) apply_palette(selection.palette, &result.layers);
   if (selection.bounds) crop(&result, *selection.bounds, budget);
   return result;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/dag/format.h"
+#include "io/dag/layers/layer_palette.h"
 #include "io/triangle.h"
 
 namespace svdag {
@@ -18,8 +19,11 @@ struct Selection {
   Layout layout = Layout::kPlain;  // --layout, of the output of a command
   bool without_layers = false;     // only the set that a file shows first
   bool without_colours = false;    // --no-colours
+  LayerPalette palette{};          // --palette: the colours of layers
 
-  bool is_everything() const { return layers.empty() && !level && !bounds && !without_layers; }
+  bool is_everything() const {
+    return layers.empty() && !level && !bounds && !without_layers && palette.empty();
+  }
 };
 
 }  // namespace svdag

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <set>
 #include <span>
 
 #include "io/suggest.h"
@@ -42,11 +41,7 @@ std::optional<size_t> exactly_named(const LayerTable& table, const std::string& 
 
 // Error (kUsage) if no layer matches.
 std::set<size_t> matching(const LayerTable& table, const std::string& pattern) {
-  if (const auto exact = exactly_named(table, pattern)) return {*exact};
-  std::set<size_t> numbers;
-  for (size_t i = 0; i < table.layers.size(); ++i) {
-    if (fnmatch(pattern.c_str(), typed_name(table.layers[i]).c_str(), 0) == 0) numbers.insert(i);
-  }
+  std::set<size_t> numbers = layers_matching(table, pattern);
   if (numbers.empty()) fail_no_layer(table, pattern);
   return numbers;
 }
@@ -55,6 +50,15 @@ std::set<size_t> matching(const LayerTable& table, const std::string& pattern) {
 
 std::string shown_layer(const std::string& name) {
   return name.empty() ? "(unnamed)" : printable(name);
+}
+
+std::set<size_t> layers_matching(const LayerTable& table, const std::string& pattern) {
+  if (const auto exact = exactly_named(table, pattern)) return {*exact};
+  std::set<size_t> numbers;
+  for (size_t i = 0; i < table.layers.size(); ++i) {
+    if (fnmatch(pattern.c_str(), typed_name(table.layers[i]).c_str(), 0) == 0) numbers.insert(i);
+  }
+  return numbers;
 }
 
 std::vector<size_t> layers_named(const LayerTable& table, const std::vector<std::string>& names) {

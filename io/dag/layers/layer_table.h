@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -40,6 +41,9 @@ struct LayerTable {
   // Its voxels, if the union has `of_union`.
   uint64_t default_voxels(uint64_t of_union) const;
 };
+
+// The numbers of the layers with this name, else of those that the pattern matches; maybe none.
+std::set<size_t> layers_matching(const LayerTable& table, const std::string& pattern);
 
 // The numbers of the layers that --layer chooses, ascending, each once. A name is that layer; any
 // other text is a shell pattern (*, ?, [..]), and "!PATTERN" excludes what it matches, of all

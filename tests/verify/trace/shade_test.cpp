@@ -108,6 +108,9 @@ TEST(Shading, GridLinesAreOnTheEdgesOfLargeVoxelsAlone) {
   EXPECT_EQ(line_at(5.5, 7.5), 1);
   EXPECT_LT(line_at(5.01, 7.5), 1);
   EXPECT_LT(line_at(5.5, 7.99), 1);
+  const double faded = line_at(5.01, 7.5);  // at 10 pixels a voxel
+  hit.t = 4;
+  EXPECT_LT(line_at(5.001, 7.5), faded);
   hit.t = 40;
   EXPECT_EQ(line_at(5.01, 7.5), 1);
   hit.level = 3;  // a cube of 8 voxels, traced with --level

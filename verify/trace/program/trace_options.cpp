@@ -38,9 +38,8 @@ void add_options(CLI::App* app, TraceOptions* options) {
                 "Trace on both devices and count the pixels that differ; exit 1 if any does");
   app->add_flag("--json", options->json, "Print one line of JSON instead of the table");
   add_layer(app, &options->layers);
-  options->view.samples = 64;
   add_camera(app, &options->view);
-  add_rays(app, &options->view, {"above the scene", "unlimited", "0, which is exact"});
+  add_rays(app, &options->view, {"above the scene", "64", "unlimited", "0, which is exact"});
   app->add_flag_callback(
       "--no-beams", [=] { options->beams = false; },
       "Primary rays start at the camera (same hits)");

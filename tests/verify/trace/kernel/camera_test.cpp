@@ -143,6 +143,18 @@ TEST(Camera, InsideIsInTheLargestRoomAndNotOnTheRoof) {
   EXPECT_NEAR(camera.forward[1], 0, 1e-12);
 }
 
+TEST(Camera, InsideIsNotBelowTheGround) {
+  VoxelSet voxels;
+  add_room({0, 0, 0}, {63, 24, 63}, &voxels);
+  std::erase_if(voxels, [](const auto& voxel) { return std::get<1>(voxel) == 0; });  // hollow
+  add_room({40, 24, 40}, {44, 60, 44}, &voxels);                                     // a tower
+  add_room({8, 24, 20}, {12, 50, 30}, &voxels);
+  const RawFile file(raw_dag(test_grid(6), voxels));
+  const Camera camera =
+      preset_camera("inside", file.view(), framing_bounds(file.view()), 1, 40, 1.5);
+  EXPECT_GT(camera.position[1], 24);
+}
+
 TEST(Camera, TurnsAroundTheBoxFromOutsideAndInPlaceInside) {
   const VoxelBounds box{{{0, 0, 0}}, {{64, 32, 64}}};
   const Camera outside = preset_camera("front", DagView(), box, 1, 40, 1.5);
