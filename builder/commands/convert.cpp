@@ -2,7 +2,6 @@
 #include <cstdio>
 
 #include "builder/commands/commands.h"
-#include "builder/import/import.h"
 #include "builder/run/bake_output.h"
 #include "io/dag/graph/select.h"
 #include "io/dag/open_dag.h"
