@@ -37,7 +37,7 @@ def made(path: Optional[PathLike], make: Callable[[PathLike], Dict[str, Any]], i
     if path is not None:
         return make(path)
     for folder in _temporary_folders(input_bytes):
-        with tempfile.TemporaryDirectory(prefix="svdag-", dir=folder) as temporary:
+        with tempfile.TemporaryDirectory(prefix="svdag-memory-", dir=folder) as temporary:
             try:
                 output = os.path.join(temporary, "memory.svdag")
                 report = make(output)
@@ -55,9 +55,16 @@ def without_folder(error: Error, folder: PathLike) -> Error:
     return type(error)(str(error).replace(f"{folder}/", ""), error.code, error.path.replace(f"{folder}/", ""))
 
 
+def _refuse_faces(faces: Any) -> None:
+    """What is given where faces were expected, usually a path, must not be ignored."""
+    if faces is not None:
+        raise TypeError("build: faces beside an object or a mapping that has its own: name the path, path=...")
+
+
 def _mesh(mesh: Any, faces: Any = None) -> Tuple[NDArray, NDArray]:
     """Vertices and faces of a pair, or of an object that has them, such as a mesh of trimesh."""
     if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
+        _refuse_faces(faces)
         mesh, faces = mesh.vertices, mesh.faces
     return rows(mesh, "<f8", "vertices"), rows(faces, np.int64, "faces")
 
@@ -90,6 +97,7 @@ def build(vertices: Any, faces: Optional[ArrayLike] = None, path: Optional[PathL
     if not isinstance(vertices, Mapping):
         meshes = {"scene": _mesh(vertices, faces)}
     else:
+        _refuse_faces(faces)
         meshes = {name: _mesh(*mesh) if isinstance(mesh, (tuple, list)) else _mesh(mesh) for name, mesh in vertices.items()}
         options.setdefault("layers", "file")
     if not meshes:
@@ -108,16 +116,25 @@ def build(vertices: Any, faces: Optional[ArrayLike] = None, path: Optional[PathL
                 return build_files(files, output, progress=progress, **options)
             except Error as error:
                 raise without_folder(error, temporary) from None
-    if path is None:
-        options.setdefault("scratch", tempfile.gettempdir())
+    _scratch_on_disk(path, options)
     return made(path, bake, sum(points.nbytes + corners.nbytes for points, corners in meshes.values()))
 
 
-def build_files(scenes: Union[PathLike, Sequence[PathLike]], path: PathLike, *, progress: Optional[Progress] = None,
-                **options: Any) -> Dict[str, Any]:
-    """Bakes scene files, which are one scene, as the file `path`, and returns the report. Options as build()."""
+def build_files(scenes: Union[PathLike, Sequence[PathLike]], path: Optional[PathLike] = None, *,
+                progress: Optional[Progress] = None, **options: Any) -> Made:
+    """Bakes scene files, which are one scene, as the file `path`, and returns the report. Path and options as build()."""
     files = [scenes] if isinstance(scenes, (str, os.PathLike)) else list(scenes)
-    return _programs.run_json("svdag", "build", *files, "-o", path, *_programs.words_of(options), progress=progress)
+
+    def bake(output: PathLike) -> Dict[str, Any]:
+        return _programs.run_json("svdag", "build", *files, "-o", output, *_programs.words_of(options), progress=progress)
+    _scratch_on_disk(path, options)
+    return made(path, bake, sum(os.path.getsize(file) for file in files if os.path.isfile(file)))
+
+
+def _scratch_on_disk(path: Optional[PathLike], options: Dict[str, Any]) -> None:
+    """Data of a bake that does not fit in memory is not spilled to memory."""
+    if path is None:
+        options.setdefault("scratch", tempfile.gettempdir())
 
 
 def from_coords(coords: ArrayLike, path: Optional[PathLike] = None, *, resolution: Optional[int] = None, voxel_size: float = 1.0,

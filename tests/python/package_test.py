@@ -16,6 +16,7 @@ import sys
 import tempfile
 import threading
 import time
+import types
 import unittest
 
 import numpy as np
@@ -453,7 +454,7 @@ class Programs(Files):
     def test_a_result_in_memory_is_that_of_a_path(self):
         mesh = sphere_mesh()
         report = svdag.build(*mesh, self.folder / "a.svdag", resolution=64)
-        files = lambda: {*pathlib.Path(tempfile.gettempdir()).glob("svdag-*"), *pathlib.Path("/dev/shm").glob("svdag-*")}  # noqa: E731
+        files = lambda: {*pathlib.Path(tempfile.gettempdir()).glob("svdag-memory-*"), *pathlib.Path("/dev/shm").glob("svdag-memory-*")}  # noqa: E731
         before = files()
         with svdag.build(*mesh, resolution=64) as file:
             self.assertEqual(files(), before)  # the file has no name
@@ -465,6 +466,11 @@ class Programs(Files):
                     use()
         np.testing.assert_array_equal(svdag.from_coords(self.coords).coords(), svdag.open(self.plain).coords())
         self.assertEqual(svdag.from_array(np.ones((8, 8, 8), bool)).report["voxels"], 512)
+        _make.write_ply(self.folder / "ball.ply", *mesh)
+        self.assertEqual(svdag.build_files(self.folder / "ball.ply", resolution=64).voxels, report["voxels"])
+        for scene in ({"ball": mesh}, types.SimpleNamespace(vertices=mesh[0], faces=mesh[1])):
+            with self.assertRaisesRegex(TypeError, "path="):  # a path as the second argument is not ignored
+                svdag.build(scene, self.folder / "a.svdag", resolution=64)
         with self.assertRaises(svdag.Error) as caught:
             svdag.build({"hull": ([[np.nan, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])}, resolution=64)
         self.assertTrue(str(caught.exception).startswith("hull: "), caught.exception)
