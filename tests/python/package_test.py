@@ -594,6 +594,11 @@ class Colours(unittest.TestCase):
         self.assertTrue(hits.colour[found].any(1).all())
         self.assertFalse(hits.colour[~found].any())
 
+    def test_what_a_program_leaves_out_is_a_warning(self):
+        with self.assertWarnsRegex(UserWarning, "colours are left out") as caught:
+            svdag.edit(*self.paths[:2], output=self.paths[0].with_name("union.svdag"), union=True)
+        self.assertEqual(caught.filename, __file__)
+
     def test_a_file_without_colours_and_a_wrong_fill_are_refused(self):
         for call in (lambda: self.bare.colours([[0, 0, 0]]), lambda: self.bare.window_colours((0,) * 3, (8,) * 3),
                      lambda: self.bare.trace([3, 4, 9], [0, 0, -1.0]).colour):
