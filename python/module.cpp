@@ -133,7 +133,6 @@ class PyFile {
     if (const auto& b = bounds)
       selection.bounds = Box{{(*b)[0], (*b)[1], (*b)[2]}, {(*b)[3], (*b)[4], (*b)[5]}};
     interruptible([&] { file_.emplace(open_dag(name, selection)); });
-    executor_ = std::make_unique<ParallelExecutor>(available_processors());
   }
 
   nb::dict info() const {
@@ -156,33 +155,36 @@ class PyFile {
     return info;
   }
 
-  Bools window(const Corner& low, const Corner& high, uint32_t level, int layer) const {
+  Bools window(const Corner& low, const Corner& high, uint32_t level, int layer,
+               size_t threads) const {
+    ParallelExecutor executor(threads_or_all(threads));
     const std::array<size_t, 3> n = size_of(low, high);
     const Zeros zeros(n[0] * n[1] * n[2]);
     const DagView dag = view(layer);
-    interruptible(
-        [&] { fill_window(dag, level, box_of(low, high), zeros.bytes, executor_.get()); });
+    interruptible([&] { fill_window(dag, level, box_of(low, high), zeros.bytes, &executor); });
     return Bools(zeros.bytes, {n[0], n[1], n[2]}, zeros.owner);
   }
 
-  Bytes window_colours(const Corner& low, const Corner& high, uint32_t level, const Rgb& fill) {
+  Bytes window_colours(const Corner& low, const Corner& high, uint32_t level, const Rgb& fill,
+                       size_t threads) {
+    ParallelExecutor executor(threads_or_all(threads));
     const std::array<size_t, 3> n = size_of(low, high);
     const Zeros zeros(n[0] * n[1] * n[2] * sizeof(Rgb));
     auto* const out = reinterpret_cast<Rgb*>(zeros.bytes);
     interruptible([&] {
       if (fill != Rgb{}) std::fill_n(out, n[0] * n[1] * n[2], fill);
-      fill_window_colours(colours(), level, box_of(low, high), out, executor_.get());
+      fill_window_colours(colours(), level, box_of(low, high), out, &executor);
     });
     return Bytes(zeros.bytes, {n[0], n[1], n[2], 3}, zeros.owner);
   }
 
   template <class T>
-  Bytes colours_of(const Rows<T>& points, uint32_t level, const Rgb& fill) {
+  Bytes colours_of(const Rows<T>& points, uint32_t level, const Rgb& fill, size_t threads) {
+    ParallelExecutor executor(threads_or_all(threads));
     const size_t n = points.shape(0);
     std::vector<Rgb> found(n, fill);
     const std::span rows(reinterpret_cast<const std::array<T, 3>*>(points.data()), n);
-    interruptible(
-        [&] { look_up_colours(colours().view(), level, rows, found.data(), executor_.get()); });
+    interruptible([&] { look_up_colours(colours().view(), level, rows, found.data(), &executor); });
     return owned<Bytes>(std::move(found), {n, 3});
   }
 
@@ -213,23 +215,25 @@ class PyFile {
   }
 
   template <class T>
-  Bools occupied(const Rows<T>& points, int layer) const {
+  Bools occupied(const Rows<T>& points, int layer, size_t threads) const {
+    ParallelExecutor executor(threads_or_all(threads));
     std::vector<uint8_t> set(points.shape(0));
     const std::span rows(reinterpret_cast<const std::array<T, 3>*>(points.data()), set.size());
-    interruptible([&] { look_up(view(layer), rows, set.data(), executor_.get()); });
+    interruptible([&] { look_up(view(layer), rows, set.data(), &executor); });
     const size_t n = set.size();
     return owned<Bools>(std::move(set), {n});
   }
 
   template <class T>
-  std::tuple<Ints, Doubles> nearest(const Rows<T>& points, double max_distance, int layer) const {
+  std::tuple<Ints, Doubles> nearest(const Rows<T>& points, double max_distance, int layer,
+                                    size_t threads) const {
+    ParallelExecutor executor(threads_or_all(threads));
     const size_t n = points.shape(0);
     std::vector<std::array<int32_t, 3>> voxels(n);
     std::vector<double> distances(n);
     const std::span rows(reinterpret_cast<const std::array<T, 3>*>(points.data()), n);
     interruptible([&] {
-      find_nearest(view(layer), rows, max_distance, voxels.data(), distances.data(),
-                   executor_.get());
+      find_nearest(view(layer), rows, max_distance, voxels.data(), distances.data(), &executor);
     });
     return {owned<Ints>(std::move(voxels), {n, 3}), owned<Doubles>(std::move(distances), {n})};
   }
@@ -254,7 +258,9 @@ class PyFile {
   // t is infinite, voxel and layer are -1, and the normal is 0 where nothing is hit. An array of
   // one row is that row n times.
   std::tuple<Doubles, Ints, nb::ndarray<nb::numpy, int8_t>, Ints> trace(
-      const Rows<double>& origins, const Rows<double>& directions, double t_max, int layer) {
+      const Rows<double>& origins, const Rows<double>& directions, double t_max, int layer,
+      size_t threads) {
+    ParallelExecutor executor(threads_or_all(threads));
     using Vector = std::array<int8_t, 3>;
     const size_t n = origins.shape(0) == 1 ? directions.shape(0) : origins.shape(0);
     if (directions.shape(0) != n && directions.shape(0) != 1)
@@ -306,7 +312,7 @@ class PyFile {
         const std::lock_guard lock(mutex_);
         if (!index_) index_.emplace(file_->layer_index());
       }
-      trace_rays(dag, n, t_max, make, take, executor_.get());
+      trace_rays(dag, n, t_max, make, take, &executor);
     });
     if (!is_valid) throw nb::value_error("trace: a ray is not finite, or has no direction");
     return {owned<Doubles>(std::move(t), {n}), owned<Ints>(std::move(voxels), {n, 3}),
@@ -348,15 +354,15 @@ class PyFile {
   std::optional<LayerIndex> index_;    // made by the first call that needs it, under mutex_
   std::optional<DagColours> colours_;  // the same
   std::mutex mutex_;
-  std::unique_ptr<ParallelExecutor> executor_;
 };
 
 // Writes the file of voxels `coords`, in any order, with repetitions.
 nb::dict from_coords(const Rows<uint32_t>& coords, const nb::bytes& path, int levels,
                      const std::array<double, 3>& corner, double voxel_size, uint64_t memory,
-                     int rule, int layout) {
+                     int rule, int layout, const nb::bytes& scratch) {
   ImportConfig config;
   config.source = config.output = string_of(path);
+  config.scratch = string_of(scratch);
   config.levels = levels;
   config.memory = memory;
   config.rule = Rule(rule);

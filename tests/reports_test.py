@@ -29,6 +29,9 @@ svdag batch list.json --keep-going --report list.report.json"""
 LIST = [{"scene": "city.ply", "output": "a.svdag", "resolution": "64"},
         {"scene": "none.ply", "output": "b.svdag", "resolution": "64"}]
 QUERIES = """svdag edit city.svdag -o coarse.svdag --level 5
+svdag convert city.svdag -o small.svdag --layout compact
+svdag pack city.svdag -o city.pack
+svdag unpack city.pack -o unpacked.svdag
 svdag export city.svdag -o city.npz
 svdag export city.svdag -o city.glb
 svdag export red.svdag -o red.vox

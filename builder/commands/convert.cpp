@@ -21,6 +21,16 @@ void report_dropped_colours(const std::string& path) {
                printable(path).c_str());
 }
 
+namespace {
+
+void print_json(const Header& header, uint64_t file_bytes, const std::string& path) {
+  ImportReport report = report_of(header);
+  report.file_bytes = file_bytes;
+  std::fputs(report_json(report, path).c_str(), stdout);
+}
+
+}  // namespace
+
 int run(const ConvertCommand& config) {
   const std::string& path = config.output_path;
   CommandFiles({config.file}).write(path);
@@ -36,7 +46,9 @@ int run(const ConvertCommand& config) {
   const Header header = write_selection(file, selection, path, room, &executor);
   if (file.has_colours() && !has_colours(header) && !selection.without_colours)
     report_dropped_colours(config.file);
-  if (!config.output.quiet)
+  if (config.output.json)
+    print_json(header, header.file_bytes, path);
+  else if (!config.output.quiet)
     std::printf("%s: %s, %s, %.1f %% of %s\n  content hash %s\n", printable(path).c_str(),
                 layout_name(selection.layout), format_bytes(header.file_bytes).c_str(),
                 100 * double(header.file_bytes) / double(before), printable(config.file).c_str(),
@@ -56,7 +68,9 @@ int run(const PackCommand& config) {
   ParallelExecutor executor(threads_or_all(config.threads));
   const DagFile plain = select(open_dag(config.file), config.selection, room, &executor);
   const uint64_t bytes = pack(plain, path, config.level, &budget, &executor);
-  if (!config.output.quiet)
+  if (config.output.json)
+    print_json(plain.header(), bytes, path);
+  else if (!config.output.quiet)
     std::printf("%s: %s, %.1f %% of the plain %s\n  content hash %s\n", printable(path).c_str(),
                 format_bytes(bytes).c_str(), 100 * double(bytes) / double(plain.bytes().size()),
                 format_bytes(plain.bytes().size()).c_str(),
@@ -72,7 +86,9 @@ int run(const UnpackCommand& config) {
   MemoryBudget budget(memory_or_default(config.memory));
   ParallelExecutor executor(threads_or_all(config.threads));
   const Header header = unpack_to(config.file, path, {&budget, folder_of(path)}, &executor);
-  if (!config.output.quiet)
+  if (config.output.json)
+    print_json(header, header.file_bytes, path);
+  else if (!config.output.quiet)
     std::printf("%s: %s\n  content hash %s\n", printable(path).c_str(),
                 format_bytes(header.file_bytes).c_str(), to_hex(header.content_hash).c_str());
   return int(ExitCode::kOk);

@@ -10,6 +10,13 @@
 #include "streaming/error.h"
 
 namespace svdag {
+namespace {
+
+void add_counts_json(CLI::App* app, OutputConfig* output) {
+  app->add_flag("--json", output->json, "Print counts and content hash as JSON");
+}
+
+}  // namespace
 
 void add_edit(CLI::App* program, Command* command) {
   CLI::App* app = program->add_subcommand("edit", "Combine, crop or coarsen .svdag files");
@@ -36,7 +43,7 @@ void add_edit(CLI::App* program, Command* command) {
   add_layout(app, &edit->selection.layout);
   add_no_clobber(app, &config->output.no_clobber);
   add_resource_options(app, &edit->memory, &config->threads, &edit->scratch);
-  app->add_flag("--json", config->output.json, "Print counts and content hash as JSON");
+  add_counts_json(app, &config->output);
   add_quiet(app, &config->output);
   add_examples(app, {"svdag edit city.svdag -o coarse.svdag --level 10",
                      "svdag edit city.svdag -o block.svdag --bounds=0,0,0,50,50,50",
@@ -91,6 +98,7 @@ void add_convert(CLI::App* program, Command* command) {
       app->add_option("--scratch", config->scratch,
                       "Folder for data that does not fit in memory (default: that of OUT)"))
       ->type_name("DIR");
+  add_counts_json(app, &config->output);
   add_quiet(app, &config->output);
   add_examples(app, {"svdag convert city.svdag -o small.svdag --layout compact",
                      "svdag convert city.svdag -o roofs.svdag --layer roof"});
@@ -116,6 +124,7 @@ void add_pack_resources(CLI::App* app, Config* config) {
           kMaxThreads)
       ->type_name("N");
   add_no_clobber(app, &config->output.no_clobber);
+  add_counts_json(app, &config->output);
   add_quiet(app, &config->output);
 }
 

@@ -12,6 +12,7 @@
 #include "io/dag/cube_at.h"
 #include "io/dag/dag_file.h"
 #include "io/dag/nearest.h"
+#include "io/dag/occupied_bounds.h"
 #include "io/dag/open_dag.h"
 #include "io/lattice.h"
 #include "io/units.h"

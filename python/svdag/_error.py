@@ -20,5 +20,6 @@ class ArgumentError(Error, ValueError):
 
 def error_of(sentence: str, code: int, path: str = "") -> Error:
     """The Error of a program's sentence. Options are named as arguments here: --voxel-size is voxel_size."""
+    sentence = re.sub(r"; see svdag[\w -]* --help$", "", sentence)
     sentence = re.sub(r"(?<!svdag info )--([a-z][a-z-]*)", lambda option: option[1].replace("-", "_"), sentence)
     return (ArgumentError if code == 2 else Error)(sentence, code, path)

@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import threading
+import warnings
 from typing import Any, Callable, Mapping, Optional, Sequence, Union
 
 from ._error import Error, error_of
@@ -78,6 +79,12 @@ def run(name: str, *arguments: Union[str, os.PathLike], progress: Optional[Progr
         sentence = re.sub(r"^svdag[\w-]*: ", "", sentence)
         path = next((str(a) for a in arguments if sentence.startswith(f"{a}: ")), "")
         raise error_of(sentence, process.returncode, path)
+    notes = re.findall(r"^svdag[\w-]*: (.*)", messages, re.M)  # what was left out, for example
+    caller = 1
+    while notes and sys._getframe(caller).f_globals.get("__package__") == __package__:
+        caller += 1
+    for note in notes:
+        warnings.warn(note, stacklevel=caller + 1)
     return out[0].decode(errors="surrogateescape")
 
 

@@ -71,7 +71,6 @@ Folder ScratchDir::acquire(const std::string& path, File* lock) {
         continue;
       }
       if (!folder.holds(file, kOwner)) continue;
-      if (folder.created()) folder.sync();  // the lock's name is on disk before any other name
       *lock = std::move(file);
     } catch (const std::exception& error) {
       const bool in_use = dynamic_cast<const ScratchInUse*>(&error) != nullptr;
@@ -126,14 +125,20 @@ std::set<std::string> ScratchDir::names() const {
   return names;
 }
 
+// The lock's name is on disk before any other name. A bake without files syncs nothing.
+void ScratchDir::register_file(const std::string& name) {
+  if (folder_.created() && created_files_.empty()) folder_.sync();
+  created_files_.insert(name);
+}
+
 File ScratchDir::create(const std::string& name) {
   folder_.remove(name);
-  created_files_.insert(name);
+  register_file(name);
   return folder_.create(name);
 }
 
 std::string ScratchDir::path_of(const std::string& name) {
-  created_files_.insert(name);
+  register_file(name);
   return path() + "/" + name;
 }
 

@@ -86,6 +86,7 @@ class ScratchDir {
   static bool remove_files(const Folder& folder, const std::set<std::string>& names) noexcept;
   static void remove_lock(const Folder& folder) noexcept;
   std::set<std::string> names() const;
+  void register_file(const std::string& name);
 
   File lock_;  // declared before folder_: acquire() sets both
   Folder folder_;

@@ -75,6 +75,10 @@ def figures(folder):
     voxels = file.coords((4000, 0, 2000), (8000, 400, 6000))
     near = voxels[random.integers(0, len(voxels), 4000000)] + random.integers(-3, 4, (4000000, 3))
     looked = seconds(lambda: file.occupied(near))
+    some = near[:1000000]
+    nearest = seconds(lambda: file.nearest(some))
+    triangles = np.array([[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4]], float), np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    small = [seconds(lambda: svdag.build(*triangles, path, resolution=64), 20) for path in (None, folder / "small.svdag")]
     anywhere = random.integers(0, (16384, 6852, 10079), (4000000, 3))
     spread = seconds(lambda: file.occupied(anywhere))
     ball = seconds(lambda: file.sphere((8192, 64, 5100), 64))
@@ -85,10 +89,12 @@ def figures(folder):
     sheet = seconds(lambda: svdag.from_coords(surface, folder / "sheet.svdag"), 3)
     return [["window of 256³", f"{1000 * window[0]:.1f} ms"],
             ["points looked up near the surface, per second and processor", f"{1e-6 * len(near) / looked[1]:.1f} M"],
+            ["nearest voxels of points there", f"{1e-6 * len(some) / nearest[1]:.1f} M"],
             ["points looked up anywhere", f"{1e-6 * len(anywhere) / spread[1]:.1f} M"],
             ["voxels in a ball of 128 voxels across", f"{1000 * ball[0]:.1f} ms"],
             ["rays per second, all processors; svdag-trace", f"{mine:.2f} M; {theirs:.2f} M"],
             [f"from_coords of 10 M random voxels; {1e-6 * len(surface):.1f} M of a surface", f"{made[1]:.2f} s CPU; {sheet[1]:.2f} s CPU"],
+            ["build of 4 triangles at 64³ in memory; at a path", f"{1000 * small[0][0]:.0f} ms; {1000 * small[1][0]:.0f} ms"],
             ["memory of open() beside the mapping, once; of each further file", f"{opened / 1024:.0f} KiB; {each / 1024:.0f} KiB"]]
 
 

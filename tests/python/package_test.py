@@ -5,8 +5,10 @@ argument crashes it.
 Usage: package_test.py SOURCE [TEST...], by the Python of the environment that has the package.
 """
 import json
+import multiprocessing
 import os
 import pathlib
+import pickle
 import re
 import signal
 import subprocess
@@ -14,12 +16,13 @@ import sys
 import tempfile
 import threading
 import time
+import types
 import unittest
 
 import numpy as np
 
 import svdag
-from svdag import _programs
+from svdag import _make, _programs
 
 SOURCE = pathlib.Path()
 
@@ -296,7 +299,7 @@ class Making(Files):
     def test_a_build_has_the_bytes_of_the_program(self):
         vertices, faces = sphere_mesh()
         ply = self.folder / "scene.ply"
-        svdag._write_ply(ply, vertices, faces)
+        _make.write_ply(ply, vertices, faces)
         for options, words in [({"resolution": "256"}, ["-r", "256"]), ({"voxel_size": 0.1, "rule": "thin"}, ["-s", "0.1", "--rule", "thin"]),
                                ({"resolution": 128, "rule": "solid", "layout": "compact", "bounds": (3, 4, 5, 9, 9, 9)},
                                 ["-r", "128", "--rule", "solid", "--layout", "compact", "--bounds=3,4,5,9,9,9"])]:
@@ -342,10 +345,10 @@ class Making(Files):
     def test_a_file_is_verified_and_compared(self):
         vertices, faces = sphere_mesh()
         ply = self.folder / "scene.ply"
-        svdag._write_ply(ply, vertices, faces)
+        _make.write_ply(ply, vertices, faces)
         svdag.build_files(ply, self.folder / "a.svdag", resolution=64)
         self.assertTrue(svdag.verify_mesh(self.folder / "a.svdag", ply)["ok"])
-        svdag._write_ply(ply, vertices + 0.05, faces)
+        _make.write_ply(ply, vertices + 0.05, faces)
         self.assertFalse(svdag.verify_mesh(self.folder / "a.svdag", [ply])["ok"])
         other = self.folder / "b.svdag"
         svdag.build_files([ply], other, resolution=64, rule="thin")
@@ -408,6 +411,112 @@ class Making(Files):
             self.assertLess(seconds, 0.1)
         self.assertFalse((self.folder / "i.svdag").exists())
         self.assertEqual(file.count(), len(self.coords))  # all goes on
+
+
+class Programs(Files):
+    def hash_of(self, path):
+        return json.loads(program("svdag", "info", path, "--json"))["content_hash"]
+
+    def test_edit_convert_and_pack_give_the_files_and_reports_of_the_program(self):
+        made = self.folder / "made.svdag"
+        for call, *line in [
+                (lambda: svdag.edit(self.plain, output=made, level=5), "edit", self.plain, "--level", "5"),
+                (lambda: svdag.edit(svdag.open(self.plain), self.compact, output=made, intersection=True), "edit", self.plain,
+                 self.compact, "--intersection"),
+                (lambda: svdag.convert(self.folder / "layers.svdag", made, layer=["floor", "ball"], layout="compact"), "convert",
+                 self.folder / "layers.svdag", "--layer", "floor", "--layer", "ball", "--layout", "compact"),
+                (lambda: svdag.unpack(self.packed, made), "unpack", self.packed)]:
+            report = call()
+            expected = self.folder / "expected.svdag"
+            program("svdag", *line, "-o", expected, "-q")
+            self.assertEqual(made.read_bytes(), expected.read_bytes())
+            file = svdag.open(made)
+            self.assertEqual((report["voxels"], report["levels"], report["content_hash"], report["file_bytes"]),
+                             (file.voxels, file.levels, file.content_hash, made.stat().st_size))
+        report = svdag.pack(self.compact, self.folder / "again.pack")
+        self.assertEqual((self.folder / "again.pack").read_bytes(), self.packed.read_bytes())
+        self.assertEqual(report["file_bytes"], self.packed.stat().st_size)
+
+    def test_import_is_the_way_back_from_export(self):
+        report = svdag.export(self.plain, self.folder / "a.npz")
+        self.assertEqual((report["format"], report["voxels"]), ("npz", len(self.coords)))
+        report = svdag.import_file(self.folder / "a.npz", self.folder / "back.svdag")
+        self.assertEqual(report["voxels"], len(self.coords))
+        self.assertTrue(svdag.diff(self.plain, self.folder / "back.svdag")["same"])
+
+    def test_info_is_that_of_the_program(self):
+        printed = json.loads(program("svdag", "info", self.folder / "layers.svdag", "--layers", "--json"))
+        with svdag.open(self.folder / "layers.svdag") as file:
+            self.assertEqual(svdag.info(file, layers=True), printed)
+        with self.assertRaises(svdag.Error):
+            svdag.info(self.folder / "none.svdag")
+
+    def test_a_result_in_memory_is_that_of_a_path(self):
+        mesh = sphere_mesh()
+        report = svdag.build(*mesh, self.folder / "a.svdag", resolution=64)
+        files = lambda: {*pathlib.Path(tempfile.gettempdir()).glob("svdag-memory-*"), *pathlib.Path("/dev/shm").glob("svdag-memory-*")}  # noqa: E731
+        before = files()
+        with svdag.build(*mesh, resolution=64) as file:
+            self.assertEqual(files(), before)  # the file has no name
+            self.assertEqual((file.path, file.content_hash), (None, self.hash_of(self.folder / "a.svdag")))
+            self.assertEqual(file.report["voxels"], report["voxels"])
+            self.assertIn("in memory", repr(file))
+            for use in (lambda: pickle.dumps(file), lambda: svdag.info(file)):
+                with self.assertRaisesRegex((TypeError, ValueError), "in memory"):
+                    use()
+        np.testing.assert_array_equal(svdag.from_coords(self.coords).coords(), svdag.open(self.plain).coords())
+        self.assertEqual(svdag.from_array(np.ones((8, 8, 8), bool)).report["voxels"], 512)
+        _make.write_ply(self.folder / "ball.ply", *mesh)
+        self.assertEqual(svdag.build_files(self.folder / "ball.ply", resolution=64).voxels, report["voxels"])
+        for scene in ({"ball": mesh}, types.SimpleNamespace(vertices=mesh[0], faces=mesh[1])):
+            with self.assertRaisesRegex(TypeError, "path="):  # a path as the second argument is not ignored
+                svdag.build(scene, self.folder / "a.svdag", resolution=64)
+        with self.assertRaises(svdag.Error) as caught:
+            svdag.build({"hull": ([[np.nan, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])}, resolution=64)
+        self.assertTrue(str(caught.exception).startswith("hull: "), caught.exception)
+        self.assertEqual(files(), before)
+
+    def test_a_result_that_does_not_fit_in_memory_is_a_temporary_file(self):
+        tried = []
+
+        def make(output):
+            tried.append(output)
+            if output.startswith(_make._MEMORY):
+                raise svdag.Error("no space is left", 4)
+            return svdag.from_coords([[1, 2, 3]], output)
+        self.assertEqual(_make.made(None, make, 1).voxels, 1)
+        self.assertEqual(_make.made(None, make, 1 << 40).voxels, 1)
+        self.assertFalse(tried[-1].startswith(_make._MEMORY))
+
+    def test_a_file_is_pickled_by_its_path(self):
+        file = svdag.open(self.folder / "layers.svdag", layers=["floor"], level=6)
+        again = pickle.loads(pickle.dumps(file))
+        self.assertEqual(again.content_hash, file.content_hash)
+        with multiprocessing.get_context("spawn").Pool(1) as pool:
+            self.assertEqual(pool.apply(svdag.File.count, [file]), file.count())
+        file.close()
+        with self.assertRaisesRegex(ValueError, "closed"):
+            pickle.dumps(file)
+
+    def test_threads_change_no_answer(self):
+        file = svdag.open(self.plain)
+        points = self.random.uniform(*file.bounds, (5000, 3))
+        box = (3, 5, 7), (200, 180, 190)
+        for threads in (1, 3):
+            np.testing.assert_array_equal(file.window(*box, threads=threads), file.window(*box))
+            np.testing.assert_array_equal(file.occupied(points, threads=threads), file.occupied(points))
+            np.testing.assert_array_equal(file.nearest(points, threads=threads)[1], file.nearest(points)[1])
+            np.testing.assert_array_equal(file.trace(points, [0, 0, 1], threads=threads).t, file.trace(points, [0, 0, 1]).t)
+        for threads in (0, -1, 2 ** 40):
+            with self.assertRaisesRegex(ValueError, "threads"):
+                file.occupied(points, threads=threads)
+
+    def test_centres_are_the_middles_of_coords(self):
+        file = svdag.open(self.plain)
+        np.testing.assert_allclose(file.centres(), file.origin + (file.coords() + 0.5) * 0.25)
+        np.testing.assert_allclose(file.centres((0, 0, 0), (16, 16, 16), level=5),
+                                   file.origin + (file.coords((0, 0, 0), (16, 16, 16), level=5) + 0.5) * 2)
+        self.assertTrue(file.occupied(file.centres()).all())
 
 
 class Colours(unittest.TestCase):
@@ -484,6 +593,11 @@ class Colours(unittest.TestCase):
         np.testing.assert_array_equal(hits.colour[found], file.colours(hits.voxel[found]))
         self.assertTrue(hits.colour[found].any(1).all())
         self.assertFalse(hits.colour[~found].any())
+
+    def test_what_a_program_leaves_out_is_a_warning(self):
+        with self.assertWarnsRegex(UserWarning, "colours are left out") as caught:
+            svdag.edit(*self.paths[:2], output=self.paths[0].with_name("union.svdag"), union=True)
+        self.assertEqual(caught.filename, __file__)
 
     def test_a_file_without_colours_and_a_wrong_fill_are_refused(self):
         for call in (lambda: self.bare.colours([[0, 0, 0]]), lambda: self.bare.window_colours((0,) * 3, (8,) * 3),
@@ -618,7 +732,7 @@ class Documents(unittest.TestCase):
             os.chdir(folder)
             try:
                 points, faces = sphere_mesh()
-                svdag._write_ply(pathlib.Path("part.ply"), points, faces)
+                _make.write_ply(pathlib.Path("part.ply"), points, faces)
                 triangles = points[faces].astype("<f4")
                 with open("part.stl", "wb") as file:
                     file.write(bytes(80) + np.uint32(len(triangles)).tobytes())
