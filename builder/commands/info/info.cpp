@@ -152,8 +152,8 @@ void print_contents(const Header& h, const LayerTable& layers) {
                 layer_kind_name(layers.kind),
                 layers.has_union ? "" : ", without their union: the voxels are those of the first");
   if (has_colours(h))
-    std::printf("  %s colours down to level %u, %s, %.3g bits a colour, largest error %s\n",
-                format_count(h.colour_count).c_str(), h.colour_level,
+    std::printf("  %s down to level %u, %s, %.3g bits a colour, largest error %s\n",
+                format_count(h.colour_count, "colour").c_str(), h.colour_level,
                 format_bytes(h.chunks_bytes + h.directory_bytes).c_str(), bits_per_colour(h),
                 format_double(double(h.colour_error) / kColourErrorUnit).c_str());
   std::printf("  content hash %s\n", to_hex(h.content_hash).c_str());
@@ -167,8 +167,8 @@ void info_pack(const InfoCommand& config) {
   uint64_t nodes = 0;
   for (uint32_t k = 0; k < h.section_count; ++k) nodes += h.sections[k].nodes;
   print_grid(path, h, ", packed");
-  std::printf("  %s voxels set, %s DAG nodes (more with --levels or --json, which unpack it)\n",
-              format_count(h.voxels).c_str(), format_count(nodes).c_str());
+  std::printf("  %s set, %s (more with --levels or --json, which unpack it)\n",
+              format_count(h.voxels, "voxel").c_str(), format_count(nodes, "DAG node").c_str());
   std::printf("  %s, %.3g bits per voxel; unpacked %s\n", format_bytes(bytes).c_str(),
               h.voxels == 0 ? 0 : 8.0 * double(bytes) / double(h.voxels),
               format_bytes(h.file_bytes).c_str());
@@ -189,9 +189,10 @@ void info_dag(const InfoCommand& config) {
   const Header& h = file.header();
   print_grid(file.path(), h, file.layout() == Layout::kPlain ? "" : ", compact layout");
   print_occupied(file);
-  std::printf("  %s voxels set, %s SVO nodes, %s DAG nodes (%s with 2x2x2 leaves)\n",
-              format_count(stats.voxels).c_str(), format_count(stats.svo_nodes()).c_str(),
-              format_count(stats.dag_nodes()).c_str(),
+  std::printf("  %s set, %s, %s (%s with 2x2x2 leaves)\n",
+              format_count(stats.voxels, "voxel").c_str(),
+              format_count(stats.svo_nodes(), "SVO node").c_str(),
+              format_count(stats.dag_nodes(), "DAG node").c_str(),
               format_count(stats.paper_dag_nodes()).c_str());
   std::printf("  %s, %.3g bits per voxel; as SVO %s\n", format_bytes(h.file_bytes).c_str(),
               stats.voxels == 0 ? 0 : 8.0 * double(h.file_bytes) / double(stats.voxels),

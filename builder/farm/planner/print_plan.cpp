@@ -65,10 +65,11 @@ void print_plan(const Plan& plan, bool steps) {
   Totals shards, merges, colours;
   for (const PlanStep& step : plan.steps)
     (step.is_shard() ? shards : step.is_merge() ? merges : colours).add(step.predicted);
-  std::printf("%s%s^3, %s triangles in %zu bins; one bake would take %.2f CPU seconds\n",
+  std::printf("%s%s^3, %s in %s; one bake would take %.2f CPU seconds\n",
               plan.folder.empty() ? "" : (plan.folder + ": ").c_str(),
               format_resolution(uint64_t(plan.grid.resolution())).c_str(),
-              format_count(plan.counts.scene.triangles).c_str(), plan.bins.size(),
+              format_count(plan.counts.scene.triangles, "triangle").c_str(),
+              format_count(plan.bins.size(), "bin").c_str(),
               plan.one_bake_cpu);
   print_totals(shards.steps == 1 ? "shard" : "shards", shards);
   print_totals(merges.steps == 1 ? "merge" : "merges", merges);
@@ -108,9 +109,10 @@ void print_bake_json(const Plan& plan, const FreeDisk& disk) {
 
 void print_bake(const Plan& plan, const FreeDisk& disk, bool default_memory) {
   const Prediction p = bake_of(plan);
-  std::printf("%s: %s^3, %s triangles in %s cells\n", printable(disk.output).c_str(),
+  std::printf("%s: %s^3, %s in %s\n", printable(disk.output).c_str(),
               format_resolution(uint64_t(plan.grid.resolution())).c_str(),
-              format_count(plan.counts.scene.triangles).c_str(), format_count(plan.cells).c_str());
+              format_count(plan.counts.scene.triangles, "triangle").c_str(),
+              format_count(plan.cells, "cell").c_str());
   std::printf("  about %.2f CPU seconds, %.2f s on %s\n", p.cpu, p.seconds,
               format_count(plan.steps.front().threads, "thread").c_str());
   std::printf("  a file of about %s, scratch of about %s\n", format_bytes(p.output).c_str(),
