@@ -24,6 +24,7 @@ svdag export thin.svdag -o thin.vdb
 svdag build city.ply scan.ply -o layers.svdag -r 64 --layers file --colours --report layers.json
 svdag build city.ply scan.ply -o layers.run -r 64 --layers file --part 1/2
 svdag build red.obj -o red.svdag -r 8 --colours
+svdag plan city.ply -o city.plan -r 64 --shards 2
 svdag batch list.json --keep-going --report list.report.json
 svdag batch list.json --keep-going --report list.report.json"""
 LIST = [{"scene": "city.ply", "output": "a.svdag", "resolution": "64"},
@@ -39,6 +40,8 @@ svdag import city.npz -o back.svdag
 svdag build city.ply -o dry.svdag -r 64 --dry-run
 svdag info city.svdag
 svdag info half.run
+svdag run city.plan
+svdag run city.plan --step merge-1
 svdag info city.ply --parts
 svdag info moving.gltf
 svdag info layers.svdag --layers

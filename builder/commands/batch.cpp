@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
 
 #include "builder/commands/batch_record.h"
@@ -16,6 +18,7 @@
 #include "builder/commands/options.h"
 #include "builder/run/bake_output.h"
 #include "io/json.h"
+#include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
 #include "streaming/file/command_files.h"
@@ -136,6 +139,7 @@ struct Outcome {
   ExitCode code = ExitCode::kOk;
   std::string error;
   std::string report;
+  std::optional<Prediction> predicted;
   bool up_to_date = false;
 };
 
@@ -143,7 +147,7 @@ Outcome bake(const BakeCommand& job, const BatchCommand& batch) {
   Outcome outcome;
   try {
     if (batch.dry_run) {
-      predict({job.build, job.threads, job.output});
+      outcome.predicted = predict({job.build, job.threads, job.output});
     } else {
       outcome.report = bake_scene(job, true);
     }
@@ -209,7 +213,7 @@ class BatchRun {
     for (size_t i = 0; i < jobs_.size(); ++i) {
       const std::optional<std::string> report = record.report_if_up_to_date(jobs_[i]);
       if (!report) continue;
-      outcomes_[i] = Outcome{ExitCode::kOk, "", *report, true};
+      outcomes_[i] = Outcome{ExitCode::kOk, "", *report, {}, true};
       if (!jobs_[i].output.quiet)
         std::printf("%s: up to date\n", printable(jobs_[i].build.output).c_str());
     }
@@ -260,9 +264,36 @@ class BatchRun {
     std::printf("%zu of %zu %s, %zu failed%s%s\n", good, jobs_.size(),
                 batch_.dry_run ? "predicted" : "baked", failed,
                 also(up_to_date, " up to date").c_str(), also(skipped_, " skipped").c_str());
+    if (batch_.dry_run && good > 1) print_totals();
   }
 
  private:
+  // What the bakes take together: their files remain, and `parallel` of them run at once.
+  void print_totals() const {
+    double cpu = 0, seconds = 0;
+    uint64_t output = 0;
+    std::vector<uint64_t> scratch, memory;
+    for (const auto& outcome : outcomes_) {
+      if (!outcome || !outcome->predicted) continue;
+      const Prediction& p = *outcome->predicted;
+      cpu += p.cpu;
+      seconds += p.seconds / double(batch_.parallel);
+      output += p.output;
+      scratch.push_back(p.scratch);
+      memory.push_back(p.memory);
+    }
+    const auto at_once = [&](std::vector<uint64_t> bytes) {
+      std::ranges::sort(bytes, std::greater());
+      bytes.resize(std::min(bytes.size(), batch_.parallel));
+      return format_bytes(std::accumulate(bytes.begin(), bytes.end(), uint64_t(0)));
+    };
+    std::printf(
+        "  in all about %.2f CPU seconds, %.2f s; files of about %s, scratch of at most %s and "
+        "memory of at most %s at once\n",
+        cpu, seconds, format_bytes(output).c_str(), at_once(scratch).c_str(),
+        at_once(memory).c_str());
+  }
+
   void run_job(size_t i) {
     if (outcomes_[i] || (failed_ && !batch_.keep_going)) return;
     const BakeCommand& job = jobs_[i];

@@ -37,7 +37,7 @@ void print_scene_notes(const SceneCounts& counts) {
 void print_colours(const ColourReport& report) {
   const Header& header = report.header;
   const uint64_t bytes = header.chunks_bytes + header.directory_bytes;
-  std::printf("%s colours down to level %u, %s", format_count(header.colour_count).c_str(),
+  std::printf("%s down to level %u, %s", format_count(header.colour_count, "colour").c_str(),
               header.colour_level, format_bytes(bytes).c_str());
   if (header.colour_count > 0)
     std::printf(" (%.3g bits each)", 8 * double(bytes) / double(header.colour_count));

@@ -82,6 +82,7 @@ struct RunCommand {
   std::string plan;
   size_t processes = 0;  // 0: one per processor
   std::string scratch;
+  bool keep = false;  // --keep: the runs
   OutputConfig output;
 };
 
@@ -194,8 +195,8 @@ int run(const UnpackCommand& command);
 
 // Bakes one scene. Returns its JSON report if in a batch or if --report is given, else "".
 std::string bake_scene(const BakeCommand& command, bool in_a_batch);
-// Prints a prediction of one bake.
-int predict(const DryRunCommand& command);
+// Prints a prediction of one bake, and returns it.
+Prediction predict(const DryRunCommand& command);
 // The paths of the files that a bake writes; Error (kUsage) if the output's path is empty.
 std::vector<std::string> outputs_of(const BakeCommand& command);
 // The bakes of a list, parsed; none is started.

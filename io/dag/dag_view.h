@@ -14,6 +14,9 @@
 // Compact layout: io/dag/compact_view.h. The index of a node is its number.
 #pragma once
 
+#include <cstring>
+#include <optional>
+
 #include "compact_view.h"  // beside this file, as format.h: the three are used without other files
 
 namespace svdag {
@@ -133,6 +136,42 @@ inline DagView dag_view(const void* data) {
   view.bricks = reinterpret_cast<const uint64_t*>(base + bricks.offset);
   view.brick_count = bricks.nodes;
   return view;
+}
+
+// What is wrong with the `size` bytes of a file at `data`; null if they can be viewed. Finds another
+// format, a truncated file and parts that are not inside. Damage within a part shows in the
+// checksums (io/dag/check.h).
+inline const char* dag_defect(const void* data, uint64_t size) {
+  if (size < sizeof(Header)) return "is shorter than a header";
+  if (reinterpret_cast<uintptr_t>(data) % 8 != 0) return "is not at an address divisible by 8";
+  const Header& header = *static_cast<const Header*>(data);
+  if (std::memcmp(header.magic, kMagic, sizeof kMagic) != 0)
+    return "is not a .svdag, or is packed (svdag unpack)";
+  if (header.version < 1 || header.version > kMaxVersion) return "has an unknown version";
+  if (header.levels < 3 || header.levels > kMaxSections + 1 || header.layout > 1)
+    return "has an impossible header";
+  if (header.file_bytes > size) return "is truncated";
+  const bool compact = Layout(header.layout) == Layout::kCompact;
+  for (uint32_t level = 0; level + 1 < header.levels; ++level) {
+    const Section& section = header.sections[level];
+    const bool bricks = level + 2 == header.levels;
+    if (section.offset % 8 != 0 || section.offset > header.file_bytes ||
+        section.bytes > header.file_bytes - section.offset || section.nodes > kMaxWords ||
+        (bricks && section.bytes < 8 * section.nodes))
+      return "has a section outside of the file";
+    if (bricks || !compact || section.nodes == 0) continue;
+    const char* const base = static_cast<const char*>(data) + section.offset;
+    if (section.bytes < sizeof(CompactEntry) ||
+        section.bytes < compact_bytes(*reinterpret_cast<const CompactEntry*>(base), section.nodes))
+      return "has a section that is too short";
+  }
+  return nullptr;
+}
+
+// A view of the `size` bytes of a file at `data`; nothing if dag_defect() finds one.
+inline std::optional<DagView> dag_view(const void* data, uint64_t size) {
+  if (dag_defect(data, size) != nullptr) return std::nullopt;
+  return dag_view(data);
 }
 
 // The view of a copy of a file: `view` is of the file at `from`, the copy is at `to`.

@@ -43,6 +43,16 @@ std::string reason(int error) {
       return "the file server has replaced or removed it";
     case ETIMEDOUT:
       return "the file server does not answer";
+    case ENAMETOOLONG:
+      return "its name is too long";
+    case ELOOP:
+      return "its symbolic links lead in a circle";
+    case EEXIST:
+      return "it exists";
+    case EBUSY:
+      return "it is in use";
+    case EIO:
+      return "the disk reports an error";
     default:
       return std::strerror(error);
   }

@@ -66,7 +66,7 @@ class Bench:
         subprocess.run([self.svdag, "plan", scene, "-r", label(log2), "-o", plan, "--shards", str(shards), "-j", "1", "-q"],
                        check=True)
         planning = os.times().children_user + os.times().children_system - usage
-        subprocess.run([self.svdag, "run", plan, "-j", "2", "-q"], check=True)
+        subprocess.run([self.svdag, "run", plan, "-j", "2", "-q", "--keep"], check=True)
         written = json.loads((plan / "plan.json").read_text())
         same = dag.read_bytes() == (plan / written["steps"][-1]["output"]).read_bytes()
         steps = [dict(name=step["name"], predicted=step["predicted"], inputs=step.get("inputs", []),

@@ -141,6 +141,7 @@ $ svdag batch list.json --dry-run -j 1 -m 200M
 |*   a file of about * *, scratch of about 0 bytes
 |*   at most * * of memory with --memory *M
 | 2 of 2 predicted, 0 failed
+|*   in all about * CPU seconds, * s; files of about * *, scratch of at most 0 bytes and memory of at most * * at once
 $ cmp old.svdag kept.svdag
 $ svdag batch list.json --dry-run --report r.json 2>&1
 | svdag: --dry-run cannot be combined with --report; see svdag batch --help

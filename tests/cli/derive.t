@@ -147,8 +147,14 @@ $ svdag unpack city.svdag.pack -o again.svdag
 |   content hash aafedd7df55db32481ca8b216032456e
 $ cmp city.svdag again.svdag && echo same
 | same
-$ svdag info city.svdag.pack | head -1
-| city.svdag.pack: 256^3 voxels, rule conservative
+$ svdag info city.svdag.pack  # by its header
+| city.svdag.pack: 256^3 voxels, rule conservative, packed
+|   voxel size 0.3764705882352941, corner (-48.188235294117646, -1.188235294117647, -48.188235294117646)
+|   330,308 voxels set, 2,355 DAG nodes (more with --levels or --json, which unpack it)
+|   13.6 KiB, 0.337 bits per voxel; unpacked 50.4 KiB
+|   content hash aafedd7df55db32481ca8b216032456e
+$ svdag info city.svdag.pack --json | grep bits_per
+|   "bits_per_voxel": 1.251098974290662,
 $ svdag-verify check city.svdag.pack | tail -1
 | ok: sound, in canonical order and minimal
 $ svdag-verify diff city.svdag.pack city.svdag -q && echo "the same voxels"

@@ -89,8 +89,8 @@ $ svdag batch list.json -q -r 64 --rule solid --layers material && cmp a.svdag b
 ## animations
 $ python3 -B $TESTS/moving_scene.py 2
 $ svdag info moving.gltf | grep animation
-|   animation #0 turn: 2.5 s, moves 1 nodes, morphs 0
-|   animation #1: 2.5 s, moves 1 nodes, morphs 0
+|   animation #0 turn: 2.5 s, moves 1 node, morphs 0
+|   animation #1: 2.5 s, moves 1 node, morphs 0
 $ svdag info moving.gltf --json | sed -n '/"animations"/,/^  \]/p'
 |   "animations": [
 |     {

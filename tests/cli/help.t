@@ -47,6 +47,9 @@ $ COLUMNS=40 svdag submit --help
 |   --scratch DIR
 |       Folder on the machines for spilled
 |       data (a relative path begins here)
+|   --keep
+|       Keep the runs, which the last step
+|       removes when the output is done
 |   -q, --quiet
 |       Print errors only
 |

@@ -176,7 +176,7 @@ $ svdag-verify view t.svdag --to .
 ? 2
 $ svdag-verify view t.svdag --to t.svdag
 | t.svdag: 8 tiles, about 664 bytes
-! svdag-verify: t.svdag: cannot create: Not a directory
+! svdag-verify: t.svdag: cannot be created: its path leads through a file
 ? 4
 $ svdag-verify view t.svdag --level 2
 ! svdag-verify: --level: t.svdag has levels 3 to 10 to show

@@ -28,10 +28,10 @@ $ svdag plan cut.glb -r 128 --shards 3 --colours --colour-error 3 --allow-empty 
 |*   with a machine per step: * s
 |   1,200 triangles are cut out by the alpha of their material
 $ svdag run p -j 2 | tail -1
-|* */p/cut.svdag
-$ cmp one.svdag p/cut.svdag
-$ svdag run p --step colours | sed 's/.*cut/cut/'
-|* cut.svdag: already done, * *, content *+*
+|* */p/p.svdag
+$ cmp one.svdag p/p.svdag
+$ svdag run p --step colours | sed 's/.*p.svdag/p.svdag/'
+|* p.svdag: already done, * *, content *+*
 $ svdag submit p --engine openjd --program svdag -q && grep -A1 '"--step"' p/openjd.json
 |        "--step",
 |        "shard-{{Task.Param.Number}}"
@@ -43,11 +43,11 @@ $ svdag submit p --engine openjd --program svdag -q && grep -A1 '"--step"' p/ope
 |        "colours"
 $ cp cut.glb whole.glb
 $ printf x >> cut.glb
-$ rm p/cut.svdag
+$ rm p/p.svdag
 $ svdag run p -q 2>&1 | sed 's/ (.*//'
 |* svdag: colours failed: */cut.glb: was changed after it was planned: restore it, or create the plan again
 $ mv whole.glb cut.glb
-$ svdag run p -q && cmp one.svdag p/cut.svdag
+$ svdag run p -q && cmp one.svdag p/p.svdag
 
 $ svdag plan cut.glb -r 128 --shards 2 --colour-level 5 -o q
 ! svdag: --colour-level requires --colours; see svdag plan --help
@@ -68,11 +68,11 @@ $ python3 -B $TESTS/cut_scene.py 3000
 $ svdag plan cut.glb -r 1K --shards 2 --colours -o p -q -m 64M
 $ for step in shard-1 shard-2 merge-1; do svdag run p --step $step -q; done
 $ svdag run p --step colours -q --checkpoint 0.01 &
-$ until [ "$(stat -c %s p/cut.svdag.scratch/journal 2>/dev/null || echo 0)" -gt 3000 ]; do sleep 0.01; done
+$ until [ "$(stat -c %s p/p.svdag.scratch/journal 2>/dev/null || echo 0)" -gt 3000 ]; do sleep 0.01; done
 $ kill -s KILL $! && wait $! 2>/dev/null || true
-$ svdag run p --step colours | sed 's/.*cut/cut/'
-|* cut.svdag: colours is done, resumed, * *, content *
-$ svdag build cut.glb -r 1K --colours -o one.svdag -q && cmp one.svdag p/cut.svdag
+$ svdag run p --step colours | sed 's/.*p.svdag/p.svdag/'
+|* p.svdag: colours is done, resumed, * *, content *
+$ svdag build cut.glb -r 1K --colours -o one.svdag -q && cmp one.svdag p/p.svdag
 $ ls -d p/*.scratch
 ! ls: cannot access 'p/*.scratch': No such file or directory
 ? 2
@@ -100,7 +100,7 @@ $ svdag run p -j 1
 |* shard-1    done in *
 |* merge-1    done in *
 |* 3 of 3 steps done in *
-|* */p/c.svdag
+|* */p/p.svdag
 $ wait
 
 ## plan_openjd
@@ -111,7 +111,7 @@ $ svdag submit p --engine openjd --program svdag -o t.json
 $ sed 's/"min": [0-9]*/"min": N/' t.json
 | {
 |  "specificationVersion": "jobtemplate-2023-09",
-|  "name": "svdag s.svdag",
+|  "name": "svdag p.svdag",
 |  "parameterDefinitions": [
 |   {
 |    "name": "Plan",
@@ -223,8 +223,19 @@ $ svdag plan c.ply -r 512 --shards 5 --fan-in 2 -o p -m 200M
 |*   with a machine per step: * s
 $ rm c.ply
 $ svdag run p -j 2 -q
-$ cmp one.svdag p/c.svdag && echo "the same bytes"
+$ cmp one.svdag p/p.svdag && echo "the same bytes"
 | the same bytes
+$ ls p/runs | grep -v json  # the runs are removed
+? 1
+$ grep -c "is done" p/logs/shard-1.log
+| 1
+$ svdag run p --json | grep -c '"done_before": true'
+| 11
+$ svdag run p --step merge-2 --json | head -4
+| {
+|   "name": "merge-2",
+|   "state": "done",
+|   "done_before": true,
 $ svdag info p | grep -v input
 |* */p: 512^3, 4,992 triangles in 4 bins; one bake would take * CPU seconds
 |*     5 shards: * CPU seconds, the longest takes * s; memory at most * *; output * *
@@ -232,10 +243,10 @@ $ svdag info p | grep -v input
 |*   with a machine per step: * s
 |   11 of 11 steps are done
 $ svdag run p --step shard-2
-|* */p/runs/shard-2.run: already done, * *, content 3e2b85c00d01f6f5c3a35e5a8906374c
+|* */p/runs/shard-2.run: already merged, * *, content 3e2b85c00d01f6f5c3a35e5a8906374c
 $ svdag run p --step merge-4 -q
 $ svdag run p -j 2 | grep -v planned | LC_ALL=C sort
-|* */p/c.svdag
+|* */p/p.svdag
 |* 11 of 11 steps done (11 already done) in * s: 0.0 CPU seconds, at most 0 bytes of memory in a step
 | merge-1    already done
 | merge-2    already done
@@ -248,6 +259,30 @@ $ svdag run p -j 2 | grep -v planned | LC_ALL=C sort
 | shard-3    already done
 | shard-4    already done
 | shard-5    already done
+
+## plan_run_keep
+# A slash at the end or none: the result has the name of the plan.
+$ svdag-scene speck -n 100 -q -o s.ply
+$ svdag plan s.ply -r 64 --shards 2 -o here.plan/ -q
+$ svdag run here.plan --keep | tail -1
+|* */here.plan/here.svdag
+$ ls here.plan here.plan/runs
+| here.plan:
+| here.svdag
+| index
+| logs
+| plan.json
+| runs
+| triangles
+|
+| here.plan/runs:
+| merge-1.json
+| shard-1.json
+| shard-1.run
+| shard-2.json
+| shard-2.run
+$ mkdir in && cd in && svdag plan ../s.ply -r 64 --shards 1 -o . -q && svdag run . --json | grep '"output"'
+|*   "output": "*/in/in.svdag",
 
 ## plan_run_failure
 $ svdag-scene city -n 2K -q -o c.ply

@@ -6,7 +6,7 @@ $ svdag-scene speck -n 100 -q -o s.ply
 $ svdag plan s.ply -r 64 --shards 2 -o p -q
 $ cp p/plan.json kept.json
 $ for edit in 's/"voxel_size": /"voxel_size": 1/' 's/"rule": "conservative"/"rule": "thin"/' 's/"bounded": false/"bounded": true/' \
->   's/s.svdag/t.svdag/' 's/"format": 9,/"format":  9,/'; do
+>   's/p.svdag/t.svdag/' 's/"format": 9,/"format":  9,/'; do
 >   sed "$edit" kept.json > p/plan.json
 >   cmp -s kept.json p/plan.json && echo "nothing is changed by $edit"
 >   svdag run p -q -j 1 2>&1 || echo "exit $?"
@@ -42,7 +42,7 @@ $ svdag-scene city -n 2K -q -o a.ply
 $ svdag-scene city -n 2K --seed 2 -q -o b.ply
 $ svdag plan a.ply -s 0.5 --shards 1 -o p -q
 $ svdag plan b.ply -s 0.5 --shards 1 -o q -q
-$ svdag run q -q
+$ svdag run q -q --keep
 $ svdag run p --step shard-1 -q
 $ cp q/runs/shard-1.run p/runs/shard-1.run
 $ svdag run p --step merge-1
@@ -95,9 +95,9 @@ $ for option in '--include x' '--exclude x' --skip-invalid --sandbox; do refused
 | exit 2
 | svdag: --sandbox: p is a plan
 | exit 2
-$ svdag run p -q -j 1
-$ refused svdag info p/s.svdag --include x
-| svdag: --include: p/s.svdag is a .svdag
+$ svdag run p -q -j 1 --keep
+$ refused svdag info p/p.svdag --include x
+| svdag: --include: p/p.svdag is a .svdag
 | exit 2
 $ refused svdag info p/runs/shard-1.run --sandbox
 | svdag: --sandbox: p/runs/shard-1.run is a run
@@ -188,7 +188,7 @@ $ ls mine
 | triangles
 $ svdag plan triangles.ply -r 64 --shards 2 -o p -q
 $ cp p/plan.json kept.json
-$ for file in plan.json index triangles runs/shard-1.run runs/merge-1.json triangles.svdag ../triangles.ply; do
+$ for file in plan.json index triangles runs/shard-1.run runs/merge-1.json p.svdag ../triangles.ply; do
 >   svdag submit p --engine openjd -o p/$file 2>&1 || echo "exit $?"
 > done
 | svdag: p/plan.json is also an input, which is never overwritten: choose another output
@@ -201,7 +201,7 @@ $ for file in plan.json index triangles runs/shard-1.run runs/merge-1.json trian
 | exit 2
 | svdag: p/runs/merge-1.json is also an input, which is never overwritten: choose another output
 | exit 2
-| svdag: p/triangles.svdag is also an input, which is never overwritten: choose another output
+| svdag: p/p.svdag is also an input, which is never overwritten: choose another output
 | exit 2
 | svdag: p/../triangles.ply is also an input, which is never overwritten: choose another output
 | exit 2
@@ -266,7 +266,7 @@ $ cp -r p kept
 $ cp s.ply kept.ply
 $ ln p/index link
 $ for output in s.ply p/plan.json p/index link p/triangles p/runs/shard-2.run p/runs/shard-1.json p/runs/merge-1.json \
->               p/s.svdag; do
+>               p/p.svdag; do
 >   svdag run p --step shard-1 -o $output 2>&1 || echo "exit $?"
 > done
 | svdag: s.ply is also an input, which is never overwritten: choose another output
@@ -285,7 +285,7 @@ $ for output in s.ply p/plan.json p/index link p/triangles p/runs/shard-2.run p/
 | exit 2
 | svdag: p/runs/merge-1.json is also an input, which is never overwritten: choose another output
 | exit 2
-| svdag: p/s.svdag is also an input, which is never overwritten: choose another output
+| svdag: p/p.svdag is also an input, which is never overwritten: choose another output
 | exit 2
 $ for output in ./s.ply p/plan.json p/triangles p/runs/shard-1.run p/runs/shard-2.json; do
 >   svdag run p --step merge-1 -o $output 2>&1 || echo "exit $?"
@@ -305,6 +305,6 @@ $ cmp kept.ply s.ply
 $ svdag run p --step shard-1 -o ./p/runs/shard-1.run -q
 $ svdag run p --step shard-2 -o mine.run -q
 $ svdag run p --step merge-1 -o mine.svdag -q
-$ svdag run p --step merge-1 -o p/s.svdag -q
-$ cmp mine.svdag p/s.svdag
+$ svdag run p --step merge-1 -o p/p.svdag -q
+$ cmp mine.svdag p/p.svdag
 $ cmp mine.run p/runs/shard-2.run

@@ -35,7 +35,7 @@ class Farm:
         self.bytes = (root / "one.svdag").read_bytes()
 
     def clear(self):
-        for path in [*(self.served / "plan" / "runs").iterdir(), self.served / "plan" / "scene.svdag", *self.local.iterdir()]:
+        for path in [*(self.served / "plan" / "runs").iterdir(), self.served / "plan" / "plan.svdag", *self.local.iterdir()]:
             shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
 
     def step(self, step, fault, local_scratch=True):
@@ -53,7 +53,7 @@ class Farm:
         return found + self.failures_of_output()
 
     def failures_of_output(self):
-        output = self.served / "plan" / "scene.svdag"
+        output = self.served / "plan" / "plan.svdag"
         same = output.exists() and output.read_bytes() == self.bytes
         left = [p.name for p in (self.served / "plan" / "runs").iterdir() if p.suffix not in (".run", ".json")]
         return ([] if same else ["the bytes differ from those of one bake"]) + [f"{name} remains" for name in left]
@@ -109,7 +109,7 @@ def check_lost_calls(report, farm):
         for before in STEPS[:number]:
             farm.step(before, Fault())
         counts = farm.step(step, Fault()).counts
-        output = farm.served / "plan" / (f"runs/{step}.run" if number < 2 else "scene.svdag")
+        output = farm.served / "plan" / (f"runs/{step}.run" if number < 2 else "plan.svdag")
         expected = output.read_bytes()
         for kind in ("open", "read"):
             for k in range(1, counts[kind] + 1):

@@ -4,6 +4,7 @@
 The disks are tmpfs mounts in a mount namespace of this test, which ends with it.
 """
 import contextlib
+import json
 import os
 import pathlib
 import shutil
@@ -124,6 +125,33 @@ def refusal_failures(fixture, case):
     return [] if done.returncode == 4 and done.stderr.startswith(expected) else [f"{done.returncode} {done}"]
 
 
+def plan_failures():
+    """A plan on a disk that cannot hold half of what it predicts is refused before its work."""
+    found = []
+    with tempfile.TemporaryDirectory(prefix="svdag-fault-") as name:
+        folder = pathlib.Path(name)
+        svdag = bakes.BUILD / "svdag"
+        subprocess.run([bakes.BUILD / "svdag-scene", "scan", "-n", "20K", "-q", "-o", "a.ply"], cwd=folder, check=True)
+        subprocess.run([svdag, "plan", "a.ply", "-r", "1K", "--shards", "2", "-o", "a.plan", "-q"], cwd=folder, check=True)
+        own = sum(pages(path.read_bytes()) + PAGE for path in (folder / "a.plan").rglob("*") if path.is_file())
+        steps = json.loads((folder / "a.plan/plan.json").read_text())["steps"]
+        need = sum(step["predicted"]["output_bytes"] for step in steps)
+        (folder / "disk").mkdir()
+        for share, step, code, text in [(0.3, [], 4, "a.plan: the plan is predicted to write about "),
+                                        (0.1, ["--step", "shard-1"], 4, "runs: shard-1 is predicted to write about "),
+                                        (0.75, ["--step", "shard-1"], 0, "")]:
+            size = own + 16 * PAGE + int(share * need)
+            subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "none", folder / "disk"], check=True)
+            try:
+                shutil.copytree(folder / "a.plan", folder / "disk/a.plan")
+                done = subprocess.run([svdag, "run", "disk/a.plan", "-q", *step], cwd=folder, capture_output=True, text=True)
+            finally:
+                subprocess.run(["umount", folder / "disk"], check=True)
+            if done.returncode != code or text not in done.stderr or (done.stderr != "") != (text != ""):
+                found.append(f"{share} of the space, {step}: {done}")
+    return found
+
+
 def colours_failures():
     """The colours of a HashDAG take 4 bytes a voxel: too small a disk is reported before a byte is written."""
     with tempfile.TemporaryDirectory(prefix="svdag-fault-") as name:
@@ -187,6 +215,7 @@ def main():
     else:
         for case in CASES:
             run_case(report, case)
+        report.record("a plan: refused early", plan_failures())
         report.record("colours of an export: refused early", colours_failures())
         for command in (["convert", "a.svdag", "--layout", "compact", "-o", "disk/b.svdag"],
                         ["unpack", "a.svdag.pack", "-o", "disk/b.svdag"],

@@ -7,6 +7,7 @@ import json
 import os
 import pathlib
 import re
+import struct
 import subprocess
 import sys
 import tempfile
@@ -69,6 +70,41 @@ class Package(unittest.TestCase):
         run("g++", "-std=c++17", "-O1", f"-I{prefix}/include", READER / "mapped.cpp", "-o", program)
         self.assertEqual(run(program, self.file).split(), self.counts)
 
+    def test_a_truncated_file_is_an_error_of_the_view(self):
+        program, prefix = self.root / "truncated", self.install()
+        run("g++", "-std=c++17", "-O1", f"-I{prefix}/include", READER / "mapped.cpp", "-o", program)
+        compact, part = self.root / "compact.svdag", self.root / "part.svdag"
+        run(BUILD / "svdag", "convert", self.file, "--layout", "compact", "-q", "-o", compact)
+        self.assertEqual(run(program, compact).split(), self.counts)
+        for data in (self.file.read_bytes(), compact.read_bytes()):
+            for size in (0, 8, 1023, 1024, 4096, len(data) // 2, len(data) - 8):
+                part.write_bytes(data[:size])
+                done = subprocess.run([program, part], capture_output=True, text=True)
+                expected = "is shorter than a header" if size < 1024 else "is truncated"
+                self.assertEqual((done.returncode, done.stderr.strip()), (3, expected), size)
+            short = bytearray(data)  # of the length that the header says, but its sections are beyond
+            short[168:176] = struct.pack("<Q", 2048)
+            part.write_bytes(short[:2048])
+            done = subprocess.run([program, part], capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stderr.strip()), (3, "has a section outside of the file"))
+
+    def test_the_program_of_the_engine_page_runs(self):
+        prefix, source, build = self.install(), self.root / "engine", self.root / "engine_build"
+        source.mkdir()
+        page = (ROOT / "docs" / "engine.md").read_text()
+        (source / "engine.cpp").write_text(re.search(r"^```cpp\n(.*?)^```$", page, re.M | re.S)[1])
+        (source / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.25)\nproject(engine LANGUAGES CXX)\n"
+                                               + re.search(r"^```cmake\n(.*?)^```$", page, re.M | re.S)[1])
+        run("cmake", "-G", "Ninja", "-S", source, "-B", build, f"-DCMAKE_PREFIX_PATH={prefix}")
+        run("cmake", "--build", build)
+        (self.root / "red.mtl").write_text("newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n")
+        (self.root / "red.obj").write_text("mtllib red.mtl\nv 0 0 0\nv 0 0 9\nv 9 0 0\nv 9 0 9\nv 0 3 0\nv 0 3 9\nv 4 3 0\n"
+                                           "usemtl blue\nf 1 2 3\nf 2 4 3\nusemtl red\nf 5 6 7\n")
+        run(BUILD / "svdag", "build", self.root / "red.obj", "-r", "64", "-q", "--colours", "--layers", "material",
+            "-o", self.root / "red.svdag")
+        self.assertRegex(run(build / "engine", self.root / "red.svdag", "1", "9", "1"), r"^red, #ff0000, 5\.9\d* below\n$")
+        self.assertRegex(run(build / "engine", self.root / "red.svdag", "8", "9", "1"), r"^blue, #0000ff, 8\.[89]\d* below\n$")
+
     def test_view_and_format_side_by_side_need_no_include_path(self):
         prefix, alone = self.install(), self.root / "side_by_side"
         alone.mkdir()
@@ -129,14 +165,16 @@ class Package(unittest.TestCase):
             synopsis = run("dpkg-deb", "-f", package, "Description").splitlines()[0]
             self.assertIn({"svdag": "builder", "libsvdag-dev": "reader"}[name], synopsis)
         held = run("dpkg-deb", "-c", packages["svdag"])
-        self.assertIn("./usr/bin/svdag-verify\n", held)
+        for program in ("svdag-verify", "svdag-scene"):
+            self.assertIn(f"./usr/bin/{program}\n", held)
         for path in ("doc/svdag/docs/farm.md", "man/man1/svdag-build.1.gz", "man/man7/svdag-grid.7.gz", "bash-completion/completions/svdag",
                      "zsh/vendor-completions/_svdag", "fish/vendor_completions.d/svdag.fish"):
             self.assertIn(f"./usr/share/{path}\n", held)
         self.require_links(held)
         held = run("dpkg-deb", "-c", packages["libsvdag-dev"])
         self.assertIn("./usr/lib/cmake", held.replace("/x86_64-linux-gnu", ""))
-        self.assertIn("./usr/share/doc/libsvdag-dev/format.md\n", held)
+        for path in ("format.md", "engine.md", "examples/reader/CMakeLists.txt", "examples/reader/cast_ray.cpp"):
+            self.assertIn(f"./usr/share/doc/libsvdag-dev/{path}\n", held)
 
     def require_links(self, held):
         """Links in packaged pages lead to files of the package, except for links to sources."""
@@ -145,7 +183,7 @@ class Package(unittest.TestCase):
         self.assertGreater(len(pages), 12)
         links = {os.path.normpath(page.parent / link) for page in pages
                  for link in re.findall(r"\]\(([^)#]+)[^)]*\)", (ROOT / page).read_text()) if not link.startswith("http")}
-        self.assertEqual({link for link in links if folder + link + "\n" not in held}, {"Makefile", "tests/package/reader"})
+        self.assertEqual({link for link in links if folder + link + "\n" not in held}, {"Makefile"})
 
 
 if __name__ == "__main__":

@@ -11,6 +11,7 @@
 
 #include "streaming/error.h"
 #include "streaming/file/file.h"
+#include "streaming/file/system_call.h"
 #include "streaming/process/interrupt.h"
 #include "verify/view/tile_file.h"
 
@@ -30,7 +31,7 @@ void write_whole(const std::string& folder, const std::string& name, std::string
 void create_folder(const std::string& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
-  if (error) throw Error(ExitCode::kOutput, "cannot create: " + error.message(), path);
+  if (error) fail_call(ExitCode::kOutput, "cannot be created", path, error.value());
 }
 
 namespace fs = std::filesystem;

@@ -100,6 +100,9 @@ void add_run(CLI::App* program, Command* command) {
   add_memory_budget(app, &config->step.memory);
   app->get_option("--memory")->description("Memory budget (default: as planned)");
   add_checkpoint(app, &config->step.checkpoint);
+  app->add_flag("--keep", config->step.keep,
+                "Keep the runs, which the last step removes when the output is done");
+  app->add_flag("--json", config->output.json, "Print every step with its figures as JSON");
   app->add_flag("--restart", config->step.restart, "Discard the saved work of a stopped step");
   add_verbose(app, &config->output, "Print seconds and memory beside those of the plan");
   for (const char* const option :
@@ -111,7 +114,8 @@ void add_run(CLI::App* program, Command* command) {
     if (step->count() > 0)
       *command = *config;
     else
-      *command = RunCommand{config->plan, config->threads, config->step.scratch, config->output};
+      *command = RunCommand{config->plan, config->threads, config->step.scratch, config->step.keep,
+                            config->output};
   });
 }
 
@@ -170,6 +174,8 @@ void add_submit(CLI::App* program, Command* command) {
       app->add_option("--scratch", config->scratch,
                       "Folder on the machines for spilled data (a relative path begins here)"))
       ->type_name("DIR");
+  app->add_flag("--keep", config->keep,
+                "Keep the runs, which the last step removes when the output is done");
   app->add_option("OPTION", config->options, "slurm: after --, options for sbatch");
   app->add_flag("-q,--quiet", config->quiet, "Print errors only");
   add_examples(app, {"svdag submit city.plan --engine slurm --wait -- --partition=bake",

@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <filesystem>
 
 #include "builder/commands/command_scene.h"
 #include "builder/commands/commands.h"
@@ -12,16 +13,19 @@
 namespace svdag {
 namespace {
 
-// "scenes/hall.glb" and "scenes/hall.glb.gz" -> "hall.svdag".
-std::string output_name(const std::string& scene) {
-  std::string name = base_name(scene);
-  if (name.ends_with(".gz")) name.resize(name.size() - 3);
-  return name.substr(0, name.find_last_of('.')) + ".svdag";
+// "plans/hall.plan/" -> "hall.svdag".
+std::string output_name(const std::string& folder) {
+  std::filesystem::path path = std::filesystem::path(absolute_path(folder)).lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();
+  const std::string name = path.filename().string();
+  const std::string ending = ".plan";
+  const bool ends = name.size() > ending.size() && name.ends_with(ending);
+  return name.substr(0, name.size() - (ends ? ending.size() : 0)) + ".svdag";
 }
 
 Plan plan(PlanConfig config, const OutputConfig& output) {
   Progress progress(output.mode());
-  config.output = output_name(config.build.scene.paths.front());
+  if (!config.folder.empty()) config.output = output_name(config.folder);
   return make_plan(config, &progress);
 }
 
@@ -38,7 +42,7 @@ int run(const PlanCommand& config) {
 }
 
 // Predicts a bake as a plan of one shard with the threads and memory of the bake.
-int predict(const DryRunCommand& config) {
+Prediction predict(const DryRunCommand& config) {
   if (config.build.part)
     fail_usage(
         "--dry-run predicts whole bakes: leave --part out, or divide the bake with svdag plan");
@@ -53,12 +57,11 @@ int predict(const DryRunCommand& config) {
                          free_bytes_of(scratch.empty() ? folder : scratch)};
   if (config.output.json) {
     print_bake_json(made, disk);
-    return int(ExitCode::kOk);
+  } else if (!config.output.quiet) {
+    print_bake(made, disk, config.build.memory == 0);
+    print_scene_notes(made.counts.scene);
   }
-  if (config.output.quiet) return int(ExitCode::kOk);
-  print_bake(made, disk);
-  print_scene_notes(made.counts.scene);
-  return int(ExitCode::kOk);
+  return bake_of(made);
 }
 
 }  // namespace svdag

@@ -4,6 +4,8 @@
 
 #include "builder/commands/command_scene.h"
 #include "builder/commands/commands.h"
+#include "builder/commands/farm/disk_check.h"
+#include "builder/farm/engines/run_report.h"
 #include "builder/farm/engines/run_step.h"
 #include "builder/farm/plan/step_name.h"
 #include "builder/run/bake_output.h"
@@ -28,6 +30,7 @@ std::string command_of(const Plan& plan, const PlanStep& step, const StepConfig&
   if (!config.scratch.empty()) words.push_back("--scratch=" + config.scratch);
   if (config.memory != 0) words.insert(words.end(), {"-m", std::to_string(config.memory)});
   if (threads != 0) words.insert(words.end(), {"-j", std::to_string(threads)});
+  if (config.keep) words.push_back("--keep");
   if (config.checkpoint != 0)
     words.insert(words.end(), {"--checkpoint", format_double(config.checkpoint)});
   return shell_words(words);
@@ -43,21 +46,12 @@ void require_same_kind(const PlanStep& step, const std::string& output) {
                   : " makes a .svdag: choose an output that does not end in .run"));
 }
 
-// Warns if the disks do not have the space that the plan predicts.
-void warn_of_full_disk(const PlanStep& step, const std::string& output,
-                       const std::string& scratch) {
+// For what the plan predicts.
+void check_disk_of(const PlanStep& step, const std::string& output, const std::string& scratch) {
   const std::string folder = folder_of(output);
-  const auto warn = [&](const std::string& disk, uint64_t bytes) {
-    const uint64_t free = free_bytes_of(disk);
-    if (bytes > free)
-      std::fprintf(stderr,
-                   "svdag: %s: %s is predicted to write about %s here, and only %s is free\n",
-                   printable(disk).c_str(), step.name.c_str(), format_bytes(bytes).c_str(),
-                   format_bytes(free).c_str());
-  };
-  if (scratch.empty()) return warn(folder, step.predicted.output + step.predicted.scratch);
-  warn(folder, step.predicted.output);
-  warn(scratch, step.predicted.scratch);
+  const Prediction& p = step.predicted;
+  check_disk(folder, p.output + (scratch.empty() ? p.scratch : 0), step.name);
+  if (!scratch.empty()) check_disk(scratch, p.scratch, step.name);
 }
 
 int do_step(const Plan& plan, const PlanStep& step, const StepConfig& config, size_t threads,
@@ -67,7 +61,7 @@ int do_step(const Plan& plan, const PlanStep& step, const StepConfig& config, si
   const std::string written = config.output.empty() ? plan.path(step.output) : config.output;
   files.write(written);
   if (!config.output.empty()) require_same_kind(step, config.output);
-  warn_of_full_disk(step, written, config.scratch);
+  if (!name_exists(written)) check_disk_of(step, written, config.scratch);
   ParallelExecutor executor(threads != 0 ? threads : step.threads);
   Progress progress(output.mode());
   StepReport report;
@@ -82,9 +76,12 @@ int do_step(const Plan& plan, const PlanStep& step, const StepConfig& config, si
     return 128 + interrupted.signal;
   }
   progress.finish();
-  if (output.quiet) return int(ExitCode::kOk);
+  if (output.json)
+    std::fputs(step_json(step, report.receipt, report.done_before).c_str(), stdout);
+  if (output.quiet || output.json) return int(ExitCode::kOk);
   std::printf("%s: %s, %s, content %s\n", printable(report.output).c_str(),
-              report.done_before        ? "already done"
+              report.removed           ? "already merged"
+              : report.done_before     ? "already done"
               : report.receipt.resumed ? (step.name + " is done, resumed").c_str()
                                        : (step.name + " is done").c_str(),
               format_bytes(report.receipt.bytes).c_str(), report.receipt.content_hash.c_str());

@@ -10,6 +10,7 @@
 #include "io/dag/occupied_bounds.h"
 #include "io/dag/open_dag.h"
 #include "io/dag/pack/pack_format.h"
+#include "io/dag/pack/unpack.h"
 #include "io/dag/symvox_header.h"
 #include "io/json.h"
 #include "io/units.h"
@@ -131,6 +132,49 @@ Json layers_json(const DagFile& file, uint64_t memory) {
   return json;
 }
 
+// `kind`: of the file.
+void print_grid(const std::string& path, const Header& h, const char* kind) {
+  const Grid grid = grid_of(h);
+  std::printf("%s: %s^3 voxels, rule %s%s\n", printable(path).c_str(),
+              format_resolution(uint64_t(grid.resolution())).c_str(), rule_name(Rule(h.rule)),
+              kind);
+  std::printf("  voxel size %s, corner (%s, %s, %s)%s\n", format_double(h.voxel_size).c_str(),
+              format_double(h.corner[0]).c_str(), format_double(h.corner[1]).c_str(),
+              format_double(h.corner[2]).c_str(),
+              h.bounded ? ", restricted by --bounds or --cube" : "");
+  if (grid.transform != Affine())
+    std::printf("  scene transformed by %s\n", format_transform(grid.transform).c_str());
+}
+
+void print_contents(const Header& h, const LayerTable& layers) {
+  if (!layers.empty())
+    std::printf("  %s, one for each %s%s\n", format_count(layers.layers.size(), "layer").c_str(),
+                layer_kind_name(layers.kind),
+                layers.has_union ? "" : ", without their union: the voxels are those of the first");
+  if (has_colours(h))
+    std::printf("  %s down to level %u, %s, %.3g bits a colour, largest error %s\n",
+                format_count(h.colour_count, "colour").c_str(), h.colour_level,
+                format_bytes(h.chunks_bytes + h.directory_bytes).c_str(), bits_per_colour(h),
+                format_double(double(h.colour_error) / kColourErrorUnit).c_str());
+  std::printf("  content hash %s\n", to_hex(h.content_hash).c_str());
+  if (has_colours(h)) std::printf("  colour hash  %s\n", to_hex(h.colour_hash).c_str());
+}
+
+// A packed file by its header: nothing is unpacked.
+void info_pack(const InfoCommand& config) {
+  const std::string& path = config.scene.paths.front();
+  const auto [h, layers, bytes] = packed_summary(path);
+  uint64_t nodes = 0;
+  for (uint32_t k = 0; k < h.section_count; ++k) nodes += h.sections[k].nodes;
+  print_grid(path, h, ", packed");
+  std::printf("  %s set, %s (more with --levels or --json, which unpack it)\n",
+              format_count(h.voxels, "voxel").c_str(), format_count(nodes, "DAG node").c_str());
+  std::printf("  %s, %.3g bits per voxel; unpacked %s\n", format_bytes(bytes).c_str(),
+              h.voxels == 0 ? 0 : 8.0 * double(bytes) / double(h.voxels),
+              format_bytes(h.file_bytes).c_str());
+  print_contents(h, layers);
+}
+
 void info_dag(const InfoCommand& config) {
   const DagFile file = open_dag(config.scene.paths.front());
   const DagStats stats = compute_stats(file);
@@ -143,35 +187,17 @@ void info_dag(const InfoCommand& config) {
     return void(std::printf("%s\n", json_text(json, 2).c_str()));
   }
   const Header& h = file.header();
-  const Grid grid = file.grid();
-  std::printf("%s: %s^3 voxels, rule %s%s\n", printable(file.path()).c_str(),
-              format_resolution(uint64_t(grid.resolution())).c_str(), rule_name(file.rule()),
-              file.layout() == Layout::kPlain ? "" : ", compact layout");
-  std::printf("  voxel size %s, corner (%s, %s, %s)%s\n", format_double(h.voxel_size).c_str(),
-              format_double(h.corner[0]).c_str(), format_double(h.corner[1]).c_str(),
-              format_double(h.corner[2]).c_str(),
-              h.bounded ? ", restricted by --bounds or --cube" : "");
-  if (grid.transform != Affine())
-    std::printf("  scene transformed by %s\n", format_transform(grid.transform).c_str());
+  print_grid(file.path(), h, file.layout() == Layout::kPlain ? "" : ", compact layout");
   print_occupied(file);
-  std::printf("  %s voxels set, %s SVO nodes, %s DAG nodes (%s with 2x2x2 leaves)\n",
-              format_count(stats.voxels).c_str(), format_count(stats.svo_nodes()).c_str(),
-              format_count(stats.dag_nodes()).c_str(),
+  std::printf("  %s set, %s, %s (%s with 2x2x2 leaves)\n",
+              format_count(stats.voxels, "voxel").c_str(),
+              format_count(stats.svo_nodes(), "SVO node").c_str(),
+              format_count(stats.dag_nodes(), "DAG node").c_str(),
               format_count(stats.paper_dag_nodes()).c_str());
   std::printf("  %s, %.3g bits per voxel; as SVO %s\n", format_bytes(h.file_bytes).c_str(),
               stats.voxels == 0 ? 0 : 8.0 * double(h.file_bytes) / double(stats.voxels),
               format_bytes(stats.svo_nodes()).c_str());
-  if (!layers.empty())
-    std::printf("  %s, one for each %s%s\n", format_count(layers.layers.size(), "layer").c_str(),
-                layer_kind_name(layers.kind),
-                layers.has_union ? "" : ", without their union: the voxels are those of the first");
-  if (file.has_colours())
-    std::printf("  %s colours down to level %u, %s, %.3g bits a colour, largest error %s\n",
-                format_count(h.colour_count).c_str(), h.colour_level,
-                format_bytes(h.chunks_bytes + h.directory_bytes).c_str(), bits_per_colour(h),
-                format_double(double(h.colour_error) / kColourErrorUnit).c_str());
-  std::printf("  content hash %s\n", to_hex(h.content_hash).c_str());
-  if (file.has_colours()) std::printf("  colour hash  %s\n", to_hex(h.colour_hash).c_str());
+  print_contents(h, layers);
   if (config.layers) print_layers(file, config.memory);
   if (config.levels) print_levels(file, stats, config.memory);
 }
@@ -205,7 +231,8 @@ int run(const InfoCommand& config) {
     info_plan(config);
   } else if (one && begins_as_dag(first)) {
     reject_scene_options(".svdag");
-    info_dag(config);
+    const bool needs_nodes = config.json || config.levels || config.layers;
+    !needs_nodes && is_packed(first) ? info_pack(config) : info_dag(config);
   } else if (one && begins_with(kRunMagic, first)) {
     reject_scene_options("run");
     reject(config.levels, "--levels", "run");

@@ -67,8 +67,8 @@ void print_text(const RunFile& run) {
     std::printf(
         "  %s, one for each %s%s\n", format_count(run.layers().layers.size(), "layer").c_str(),
         layer_kind_name(run.layers().kind), run.layers().has_union ? "" : ", without their union");
-  std::printf("  %s voxels set, %s nodes, %s roots, %s\n", format_count(h.voxels).c_str(),
-              format_count(nodes).c_str(), format_count(h.roots).c_str(),
+  std::printf("  %s set, %s, %s, %s\n", format_count(h.voxels, "voxel").c_str(),
+              format_count(nodes, "node").c_str(), format_count(h.roots, "root").c_str(),
               format_bytes(h.file_bytes).c_str());
   std::printf("  content hash %s\n", hash_of(run).c_str());
 }
@@ -87,8 +87,9 @@ void info_plan(const InfoCommand& config) {
   if (config.json) fail_usage("--json: " + plan.path("plan.json") + " is the plan as JSON");
   print_plan(plan, config.levels);
   size_t done = 0;
+  const bool finished = is_finished(plan, false);
   for (const PlanStep& step : plan.steps)
-    done += output_state(plan, step, plan.path(step.output), false) == OutputState::kValid;
+    done += finished || output_state(plan, step, plan.path(step.output), false) == OutputState::kValid;
   for (const PlanInput& input : plan.inputs)
     std::printf("  input %s, %s, content %s\n", printable(input.path).c_str(),
                 format_bytes(input.bytes).c_str(), input.hash.c_str());

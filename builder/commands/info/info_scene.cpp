@@ -217,9 +217,9 @@ void print_text(const InfoCommand& config, const Box& box, const SceneCounts& co
   print_scene_notes(counts);
   for (size_t i = 0; i < animations.size(); ++i) {
     const auto& [name, seconds, nodes, weights] = animations[i];
-    std::printf("  animation #%zu%s%s: %.6g s, moves %s nodes, morphs %s\n", i,
+    std::printf("  animation #%zu%s%s: %.6g s, moves %s, morphs %s\n", i,
                 name.empty() ? "" : " ", printable(name).c_str(), seconds,
-                format_count(nodes).c_str(), format_count(weights).c_str());
+                format_count(nodes, "node").c_str(), format_count(weights).c_str());
   }
   if (config.parts) std::printf("\n  %14s  part\n", "triangles");
   for (const MeshPart& part : parts) {

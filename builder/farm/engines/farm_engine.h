@@ -17,6 +17,7 @@ constexpr double kTimeMargin = 4;
 struct SubmitConfig {
   std::string program = {};  // svdag on the other machines; empty: this program
   std::string scratch = {};  // --scratch of the steps
+  bool keep = false;         // --keep of the last step
   bool quiet = false;
   // Of some engines.
   std::string template_path = {};         // empty: in the plan's folder

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <thread>
 
 #include "builder/farm/engines/live_table.h"
+#include "builder/farm/engines/run_report.h"
 #include "builder/farm/engines/run_step.h"
 #include "builder/farm/plan/plan_folder.h"
 #include "builder/farm/plan/receipt.h"
@@ -65,6 +67,7 @@ class Runner {
         table_(plan, config.table, config.quiet) {}
 
   void run() {
+    skip_if_finished();
     try {
       while (!is_over()) {
         check_interrupt();
@@ -83,10 +86,22 @@ class Runner {
       throw;
     }
     table_.finish(rows_);
+    if (config_.json) std::fputs(run_json(plan_, rows_).c_str(), stdout);
     fail_if_any_failed();
   }
 
  private:
+  // The outputs of a finished plan may be removed, except the last.
+  void skip_if_finished() {
+    if (!is_finished(plan_, true)) return;
+    for (size_t i = 0; i < rows_.size(); ++i) {
+      rows_[i].state = StepState::kDone;
+      rows_[i].done_before = true;
+      rows_[i].receipt = read_receipt(plan_, plan_.steps[i]);
+      table_.print(i, rows_[i]);
+    }
+  }
+
   size_t running() const {
     return size_t(std::count_if(rows_.begin(), rows_.end(), [](const StepRow& row) {
       return row.state == StepState::kRunning;
@@ -148,9 +163,10 @@ class Runner {
     StepRow& row = rows_[i];
     std::vector<std::string> command = {config_.program.empty() ? own_image() : config_.program};
     for (const std::string& word : plan_.command(plan_.steps[i])) command.push_back(word);
-    command.push_back("--quiet");
+    command.push_back("--verbose");  // the log of a step has what it took
     if (plan_.steps[i].is_colours()) command.push_back("-j" + std::to_string(threads_alone(i)));
     if (!config_.scratch.empty()) command.push_back("--scratch=" + config_.scratch);
+    if (config_.keep && i + 1 == rows_.size()) command.push_back("--keep");
     row.begin = Clock::now();
     receipt_times_[i] = receipt_time(i);
     make_folder(plan_.path("logs"));  // a copy of a plan may lack empty folders

@@ -1,6 +1,8 @@
 #include "builder/farm/engines/run_step.h"
 
 #include <chrono>
+#include <filesystem>
+#include <system_error>
 
 #include "builder/bake/description.h"
 #include "builder/build.h"
@@ -101,6 +103,13 @@ Receipt colour_merged(const Plan& plan, const PlanStep& step, const StepConfig& 
   return {content_hash_of(output, false), report.header.file_bytes, 0, 0, 0, report.scratch, report.resumed};
 }
 
+// A file that cannot be removed is left behind.
+void remove_inputs(const Plan& plan) {
+  std::error_code none;
+  for (size_t i = 0; i + 1 < plan.steps.size(); ++i)
+    std::filesystem::remove(plan.path(plan.steps[i].output), none);
+}
+
 std::string output_of(const Plan& plan, const PlanStep& step, const StepConfig& config) {
   return config.output.empty() ? plan.path(step.output) : config.output;
 }
@@ -121,6 +130,14 @@ StepReport run_step(const Plan& plan, const PlanStep& step, const StepConfig& co
     report.receipt = *read_receipt(plan, step);
     return report;
   }
+  const bool is_last = step.name == plan.steps.back().name;
+  if (const auto receipt = read_receipt(plan, step); receipt && !is_last && config.output.empty() &&
+                                                     !name_exists(report.output) &&
+                                                     is_finished(plan, false)) {
+    report.done_before = report.removed = true;
+    report.receipt = *receipt;
+    return report;
+  }
   make_folder(plan.path("runs"));  // a copy of a plan may lack empty folders
   const auto work = step.is_shard() ? bake_shard : step.is_colours() ? colour_merged : merge_inputs;
   try {
@@ -135,6 +152,7 @@ StepReport run_step(const Plan& plan, const PlanStep& step, const StepConfig& co
   report.receipt.cpu = cpu_seconds();
   report.receipt.memory = peak_resident_bytes();
   write_receipt(plan, step, report.receipt);
+  if (is_last && config.output.empty() && !config.keep) remove_inputs(plan);
   return report;
 }
 

@@ -5,6 +5,9 @@
 // its scratch folder still exists; scratch that is damaged or of another plan is discarded, and the
 // step starts over. If another process runs the step in the same scratch folder, this throws an
 // Error with an exit code of its own.
+//
+// The last step removes the outputs of the others, which it has read. Their receipts remain: a
+// finished plan is finished, and its steps do nothing.
 #pragma once
 
 #include "builder/farm/plan/receipt.h"
@@ -24,11 +27,13 @@ struct StepConfig {
   std::string scratch;    // the folder for scratch folders; empty: the output's folder
   double checkpoint = 0;  // unless a merge, as in BuildConfig; 0: the default of BuildConfig
   bool restart = false;   // discard the saved work of a killed step
+  bool keep = false;      // --keep: the last step keeps the outputs of the others
 };
 
 struct StepReport {
   std::string output;
   bool done_before = false;  // a valid output was kept
+  bool removed = false;      // the plan was finished before, and this output is no longer there
   Receipt receipt;
 };
 

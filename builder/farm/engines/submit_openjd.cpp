@@ -80,6 +80,7 @@ Json step_json(const Plan& plan, const SubmitConfig& config, const Stage& stage)
                     : first.is_colours() ? kColoursName
                                          : merge_name(kNumber)};
   if (!config.scratch.empty()) arguments.push_back("--scratch={{Param.Scratch}}");
+  if (config.keep && first.name == plan.steps.back().name) arguments.push_back("--keep");
   return {{"name", stage.name},
           {"parameterSpace",
            {{"taskParameterDefinitions",

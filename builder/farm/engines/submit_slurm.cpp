@@ -137,6 +137,7 @@ class Submission {
 };
 
 void Submission::collect() {
+  if (is_finished(plan_, true)) return;
   const size_t none = SIZE_MAX;
   size_t current = none;  // number of the last job's array
   for (size_t i = 0; i < plan_.steps.size(); ++i) {
@@ -179,6 +180,7 @@ std::string Submission::script_of(const Job& job) const {
         "\"";
   if (!config_.scratch.empty())
     command += " --scratch " + shell_word(absolute_unresolved(config_.scratch));
+  if (config_.keep && step.name == plan_.steps.back().name) command += " --keep";
   return "#!/bin/sh\n" + command +
          "\n"
          "code=$?\n"
@@ -289,15 +291,14 @@ void Submission::wait() const {
   }
   std::string missing;
   size_t count = 0;
-  for (const PlanStep& step : plan_.steps) {
-    const bool last = &step == &plan_.steps.back();  // merges have checked the other outputs
-    if (output_state(plan_, step, plan_.path(step.output), last) == OutputState::kValid) continue;
-    if (count++ < 3) missing += (missing.empty() ? "" : ", ") + step.name;
-  }
-  if (count == 0) {
+  if (is_finished(plan_, true)) {
     if (!config_.quiet)
       std::printf("%s is done\n", printable(plan_.path(plan_.steps.back().output)).c_str());
     return;
+  }
+  for (const PlanStep& step : plan_.steps) {
+    if (output_state(plan_, step, plan_.path(step.output), false) == OutputState::kValid) continue;
+    if (count++ < 3) missing += (missing.empty() ? "" : ", ") + step.name;
   }
   throw Error(ExitCode::kOutput, "the jobs ended, but " + std::to_string(count) +
                                      " steps of the plan are not done, first " + missing +

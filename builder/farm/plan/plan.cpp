@@ -254,7 +254,7 @@ void save_plan(Plan* plan) {
 
 Plan load_plan(const std::string& folder, bool with_bins) {
   Plan plan;
-  plan.folder = absolute_path(without_slashes(folder));
+  plan.folder = without_slashes(absolute_path(without_slashes(folder)));
   const std::string path = plan.path(kPlanJson);
   if (!is_plan(folder))
     fail_input(folder, "not a plan folder: plan.json is missing (create one with svdag plan)");

@@ -60,6 +60,11 @@ std::optional<Receipt> read_receipt(const Plan& plan, const PlanStep& step) {
   }
 }
 
+bool is_finished(const Plan& plan, bool thorough) {
+  const PlanStep& last = plan.steps.back();
+  return output_state(plan, last, plan.path(last.output), thorough) == OutputState::kValid;
+}
+
 OutputState output_state(const Plan& plan, const PlanStep& step, const std::string& path,
                          bool thorough) {
   if (!name_exists(path)) return OutputState::kMissing;

@@ -34,6 +34,9 @@ void write_receipt(const Plan& plan, const PlanStep& step, const Receipt& receip
 // Returns nothing if the receipt is missing, of another plan or step, or cannot be parsed.
 std::optional<Receipt> read_receipt(const Plan& plan, const PlanStep& step);
 
+// Whether the plan's last output is there; the runs may then be removed.
+bool is_finished(const Plan& plan, bool thorough);
+
 // The state of the file `path` as the output of `step`. Reads only its header, or every byte if
 // `thorough`.
 OutputState output_state(const Plan& plan, const PlanStep& step, const std::string& path,

@@ -34,22 +34,6 @@ void print_totals(const char* what, const Totals& totals) {
       totals.scratch != 0 ? (", scratch at most " + format_bytes(totals.scratch)).c_str() : "");
 }
 
-// The bake without a plan, from a plan of one shard. With colours, its file is in scratch until
-// they are in.
-Prediction bake_of(const Plan& plan) {
-  Prediction p = plan.steps.front().predicted;
-  p.cpu = plan.one_bake_cpu;
-  p.seconds = p.cpu / double(plan.steps.front().threads);
-  const Prediction& last = plan.steps.back().predicted;
-  p.output = last.output;
-  if (!plan.colours) return p;
-  p.budget = std::max(p.budget, last.budget);
-  p.memory = std::max(p.memory, last.memory);
-  const Prediction& merge = plan.steps[plan.steps.back().inputs.front()].predicted;
-  p.scratch = std::max(p.scratch, merge.output + last.scratch);
-  return p;
-}
-
 // Seconds of the longest chain of steps: the time of the plan with a machine per step.
 double critical_path(const Plan& plan) {
   std::vector<double> ends;
@@ -81,16 +65,32 @@ void print_plan(const Plan& plan, bool steps) {
   Totals shards, merges, colours;
   for (const PlanStep& step : plan.steps)
     (step.is_shard() ? shards : step.is_merge() ? merges : colours).add(step.predicted);
-  std::printf("%s%s^3, %s triangles in %zu bins; one bake would take %.2f CPU seconds\n",
+  std::printf("%s%s^3, %s in %s; one bake would take %.2f CPU seconds\n",
               plan.folder.empty() ? "" : (plan.folder + ": ").c_str(),
               format_resolution(uint64_t(plan.grid.resolution())).c_str(),
-              format_count(plan.counts.scene.triangles).c_str(), plan.bins.size(),
+              format_count(plan.counts.scene.triangles, "triangle").c_str(),
+              format_count(plan.bins.size(), "bin").c_str(),
               plan.one_bake_cpu);
   print_totals(shards.steps == 1 ? "shard" : "shards", shards);
   print_totals(merges.steps == 1 ? "merge" : "merges", merges);
   if (plan.colours) print_totals("colour pass", colours);
   std::printf("  with a machine per step: %.2f s\n", critical_path(plan));
   if (steps) print_steps(plan);
+}
+
+// With colours, the file of the bake is in scratch until they are in.
+Prediction bake_of(const Plan& plan) {
+  Prediction p = plan.steps.front().predicted;
+  p.cpu = plan.one_bake_cpu;
+  p.seconds = p.cpu / double(plan.steps.front().threads);
+  const Prediction& last = plan.steps.back().predicted;
+  p.output = last.output;
+  if (!plan.colours) return p;
+  p.budget = std::max(p.budget, last.budget);
+  p.memory = std::max(p.memory, last.memory);
+  const Prediction& merge = plan.steps[plan.steps.back().inputs.front()].predicted;
+  p.scratch = std::max(p.scratch, merge.output + last.scratch);
+  return p;
 }
 
 void print_bake_json(const Plan& plan, const FreeDisk& disk) {
@@ -107,11 +107,12 @@ void print_bake_json(const Plan& plan, const FreeDisk& disk) {
       whole(disk.output_bytes), whole(p.scratch), whole(disk.scratch_bytes));
 }
 
-void print_bake(const Plan& plan, const FreeDisk& disk) {
+void print_bake(const Plan& plan, const FreeDisk& disk, bool default_memory) {
   const Prediction p = bake_of(plan);
-  std::printf("%s: %s^3, %s triangles in %s cells\n", printable(disk.output).c_str(),
+  std::printf("%s: %s^3, %s in %s\n", printable(disk.output).c_str(),
               format_resolution(uint64_t(plan.grid.resolution())).c_str(),
-              format_count(plan.counts.scene.triangles).c_str(), format_count(plan.cells).c_str());
+              format_count(plan.counts.scene.triangles, "triangle").c_str(),
+              format_count(plan.cells, "cell").c_str());
   std::printf("  about %.2f CPU seconds, %.2f s on %s\n", p.cpu, p.seconds,
               format_count(plan.steps.front().threads, "thread").c_str());
   std::printf("  a file of about %s, scratch of about %s\n", format_bytes(p.output).c_str(),
@@ -122,8 +123,9 @@ void print_bake(const Plan& plan, const FreeDisk& disk) {
   if (p.scratch > disk.scratch_bytes)
     std::printf("  not enough disk space for scratch: %s free (choose another with --scratch)\n",
                 format_bytes(disk.scratch_bytes).c_str());
-  std::printf("  at most %s of memory with --memory %lluM\n", format_bytes(p.memory).c_str(),
-              static_cast<unsigned long long>(p.budget >> 20));
+  std::printf("  at most %s of memory with --memory %lluM%s\n", format_bytes(p.memory).c_str(),
+              static_cast<unsigned long long>(p.budget >> 20),
+              default_memory ? " (not given: half of the machine's may be used)" : "");
 }
 
 }  // namespace svdag

@@ -14,8 +14,10 @@ struct FreeDisk {
   uint64_t output_bytes, scratch_bytes;
 };
 
-// Prints the prediction of a bake, from a plan of one shard.
-void print_bake(const Plan& plan, const FreeDisk& disk);
+// The prediction of a bake, from a plan of one shard.
+Prediction bake_of(const Plan& plan);
+// Prints it. `default_memory`: the bake has no --memory.
+void print_bake(const Plan& plan, const FreeDisk& disk, bool default_memory);
 // The same as one line of JSON: counts, seconds and bytes.
 void print_bake_json(const Plan& plan, const FreeDisk& disk);
 

@@ -328,6 +328,11 @@ DagFile with_colours(Unpacker* unpacker, DagCopy* copy, const std::string& path)
 
 }  // namespace
 
+PackedSummary packed_summary(const std::string& path) {
+  const Unpacker unpacker(path, {}, nullptr);
+  return {unpacker.plain(), unpacker.layers(), File::open_read(path).size()};
+}
+
 DagFile unpack(const std::string& path, const WorkRoom& room, Executor* executor) {
   Unpacker unpacker(path, room, executor);
   DagFile nodes = unpack_nodes(&unpacker, path, room);

@@ -15,6 +15,14 @@ namespace svdag {
 // Whether the file begins like a packed one. Error (kBadInput) if it cannot be read.
 bool is_packed(const std::string& path);
 
+// What a packed file says of itself: no chunk is read.
+struct PackedSummary {
+  Header plain;  // of the file in the plain layout
+  LayerTable layers;
+  uint64_t bytes = 0;  // of the packed file
+};
+PackedSummary packed_summary(const std::string& path);
+
 // The plain file; it has no name and is in room.folder. Error (kBadInput), which names the chunk,
 // if the packed file is damaged.
 DagFile unpack(const std::string& path, const WorkRoom& room, Executor* executor);

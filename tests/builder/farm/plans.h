@@ -24,7 +24,15 @@ inline Plan plan_of(const PlanConfig& config) {
   return make_plan(config, &progress);
 }
 
-inline StepReport do_step(const Plan& plan, const PlanStep& step, const StepConfig& config = {}) {
+// Keeps the runs, which tests compare.
+inline StepConfig keeping() {
+  StepConfig config;
+  config.keep = true;
+  return config;
+}
+
+inline StepReport do_step(const Plan& plan, const PlanStep& step,
+                          const StepConfig& config = keeping()) {
   ParallelExecutor executor(step.threads);
   Progress progress;
   return run_step(plan, step, config, &executor, &progress);

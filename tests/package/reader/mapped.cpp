@@ -12,8 +12,9 @@ int main(int argc, char** argv) {
   std::rewind(file);
   const size_t read = std::fread(bytes.data(), 1, bytes.size() * 8, file);
   std::fclose(file);
-  if (read == 0) return 3;
-  const svdag::DagView dag = svdag::dag_view(bytes.data());
+  const auto view = svdag::dag_view(bytes.data(), read);
+  if (!view) return std::fprintf(stderr, "%s\n", svdag::dag_defect(bytes.data(), read)), 3;
+  const svdag::DagView& dag = *view;
   const uint32_t bricks = dag.resolution() / 4;
   unsigned long long voxels = 0;
   for (uint32_t x = 0; x < bricks; ++x) {
