@@ -351,12 +351,12 @@ void check_colours(const BuildConfig& config) {
     fail_usage("--colours: runs have none: merge them first, then use svdag colour");
   if (config.colours && !config.with_union)
     fail_usage("--colours: they belong to the union: leave --no-union and --frames out");
+  if (!config.palette.empty() && config.layers == LayerKind::kNone)
+    fail_usage("--palette: there are no layers to colour: add --layers");
 }
 
 BuildReport build(const BuildConfig& config, Executor* executor, Progress* progress) {
   check_colours(config);
-  if (!config.palette.empty() && config.layers == LayerKind::kNone)
-    fail_usage("--palette: there are no layers to colour: add --layers");
   if (config.part && !names_run(config.output))
     fail_usage(config.output + ": a part of a grid is a run: choose an output that ends in .run");
   try {
