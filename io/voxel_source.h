@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,11 +30,12 @@ struct FullCube {
 using FullCubeSink = std::function<void(const FullCube&)>;
 
 // The world position of the corner of voxel (0, 0, 0), the voxel size, and the voxels per axis. The
-// defaults apply to what a file does not specify.
+// defaults apply to what a file does not specify. `grid`: the complete grid instead of these.
 struct GridPlacement {
   Point corner{0};
   double voxel_size = 1;
   uint64_t resolution = 0;  // a minimum; 0: as many as the voxels need
+  std::optional<Grid> grid = {};
 };
 
 // Collects voxels into batches.

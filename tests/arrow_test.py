@@ -16,7 +16,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 STREAMING = ["streaming", "streaming/file", "streaming/memory", "streaming/process", "streaming/spill",
              "streaming/sort"]
 SCENE = ["io/scene/cutouts", "io/scene/colours", "io/scene/mesh", "io/scene/polygons", "io/scene/decoders", "io/scene/readers", "io/scene/gltf", "io/scene"]
-FORMATS = ["io/formats", "io/formats/dags", "io/formats/voxels", "io/formats/surfaces", "io/formats/vdb"]
+FORMATS = ["io/formats", "io/formats/dags", "io/formats/voxels", "io/formats/surfaces", "io/formats/points", "io/formats/vdb"]
 PHASES = ["builder/octree", "builder/overlap", "builder/overlap/kernels", "builder/winding", "builder/workspace", "builder/reduce",
           "builder/descend", "builder/split", "builder/run", "builder/merge"]
 DAG = ["io/dag", "io/dag/colours", "io/dag/layers", "io/dag/compact", "io/dag/pack", "io/dag/graph"]
@@ -31,20 +31,22 @@ ALLOWED = {
     "streaming/spill": ["streaming", "streaming/file", "streaming/memory"],
     "streaming/sort": ["streaming", "streaming/memory", "streaming/process", "streaming/spill"],
     "io": ["streaming"],
+    "io/values": STREAMING,
     "io/help": STREAMING + ["io", *DAG, "io/scene"],
     "io/scene/decoders": STREAMING + ["io"],
     "io/scene/cutouts": STREAMING + ["io", "io/scene/decoders"],
     "io/scene/colours": STREAMING + ["io", "io/scene/cutouts", "io/scene/decoders"],
     "io/scene/mesh": STREAMING + ["io", "io/scene/cutouts", "io/scene/colours"],
     "io/scene/polygons": STREAMING + ["io", "io/scene/cutouts", "io/scene/colours", "io/scene/mesh"],
-    "io/scene/readers": STREAMING + ["io", "io/scene/cutouts", "io/scene/colours", "io/scene/mesh", "io/scene/polygons", "io/scene/decoders"],
-    "io/scene/gltf": STREAMING + ["io", "io/scene/cutouts", "io/scene/colours", "io/scene/mesh", "io/scene/polygons", "io/scene/decoders", "io/scene/readers"],
-    "io/scene": STREAMING + ["io", *DAG] + SCENE,
+    "io/scene/readers": STREAMING + ["io", "io/values", "io/scene/cutouts", "io/scene/colours", "io/scene/mesh", "io/scene/polygons", "io/scene/decoders"],
+    "io/scene/gltf": STREAMING + ["io", "io/values", "io/scene/cutouts", "io/scene/colours", "io/scene/mesh", "io/scene/polygons", "io/scene/decoders", "io/scene/readers"],
+    "io/scene": STREAMING + ["io", "io/values", *DAG] + SCENE,
     **{room: STREAMING + ["io", *DAG] for room in DAG},
     "io/formats": STREAMING + ["io", *DAG],
     "io/formats/dags": STREAMING + ["io", *DAG, "io/formats"],
     "io/formats/voxels": STREAMING + ["io", *DAG, "io/formats"],
     "io/formats/surfaces": STREAMING + ["io", *DAG, "io/formats"],
+    "io/formats/points": STREAMING + ["io", "io/values", *DAG, "io/formats"],
     "io/formats/vdb": STREAMING + ["io", *DAG, "io/formats"],
     "builder/octree": ["streaming", "io"],
     "builder/overlap": ["streaming", "io", "builder/octree"],

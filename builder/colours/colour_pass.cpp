@@ -259,6 +259,8 @@ class ColourPass {
 // The scene must reach as far as the voxels do, unless they are those of a solid that ends at the
 // selection.
 void check_bounds(const DagFile& file, const PaintedScene& scene) {
+  if (file.rule() == Rule::kPoints)
+    fail_foreign(file, "its voxels hold points, whose colours svdag import stores");
   if (file.view().empty() || (is_solid(file.rule()) && file.grid().bounded)) return;
   if (scene.is_empty) fail_foreign(file, "no triangle of the scene meets its grid");
   const Lattice lattice(file.grid());

@@ -16,7 +16,9 @@ namespace svdag {
 namespace {
 
 Rule parse_rule(const std::string& name) {
-  if (const auto rule = rule_named(name)) return *rule;
+  const auto rule = rule_named(name);
+  if (rule == Rule::kPoints) fail_usage("--rule points: is of points, which svdag import reads");
+  if (rule) return *rule;
   fail_usage("--rule: unknown rule \"" + name + "\": choose conservative, thin or solid");
 }
 

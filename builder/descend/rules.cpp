@@ -29,9 +29,10 @@ constexpr SurfaceRule kSurfaceRules[] = {
      "46fe9462a409d09ba88bfb5c1a55ae18"},
 };
 constexpr const SurfaceRule& kConservativeSurface = kSurfaceRules[0];
-// [Rule]: of the rule's surface.
+// [Rule]: of the rule's surface; no bake has rule points.
 constexpr const SurfaceRule* kSurfaceOf[] = {&kConservativeSurface, &kSurfaceRules[1],
-                                             &kConservativeSurface, &kConservativeSurface};
+                                             &kConservativeSurface, &kConservativeSurface,
+                                             &kConservativeSurface};
 static_assert(std::size(kSurfaceOf) == std::size(kRuleNames));
 
 }  // namespace

@@ -31,11 +31,12 @@ struct CodeWord {
 };
 using VoxelSort = ExternalSort<uint64_t, CodeWord>;
 
-// Reduces sorted voxels, as bricks, and the full cubes between them.
+// Reduces sorted voxels, as bricks, and the full cubes between them. A voxel is set if it comes
+// `min_points` times: equal codes follow one another.
 class VoxelReduction {
  public:
-  VoxelReduction(int levels, const FullCubes& cubes, SubDagBuilder* builder)
-      : levels_(levels), cubes_(cubes), bricks_(builder) {}
+  VoxelReduction(int levels, uint64_t min_points, const FullCubes& cubes, SubDagBuilder* builder)
+      : levels_(levels), min_points_(min_points), cubes_(cubes), bricks_(builder) {}
 
   void run(VoxelSort* sort) {
     sort->finish([this](const auto& codes) {
@@ -48,6 +49,9 @@ class VoxelReduction {
 
  private:
   void add(uint64_t voxel) {
+    repeats_ = voxel == last_ ? repeats_ + 1 : 1;
+    last_ = voxel;
+    if (repeats_ < min_points_) return;
     add_cubes(voxel);
     if (voxel < covered_) return;
     if (voxel >> 6 != code_) {
@@ -73,8 +77,11 @@ class VoxelReduction {
   }
 
   const int levels_;
+  const uint64_t min_points_;
   const FullCubes& cubes_;
   BrickReduction bricks_;
+  uint64_t last_ = UINT64_MAX;  // voxel, and how often it came
+  uint64_t repeats_ = 0;
   size_t next_ = 0;       // index in cubes_
   uint64_t covered_ = 0;  // end of the last full cube
   uint64_t code_ = 0;     // of the brick being collected
@@ -109,10 +116,11 @@ class BrickColours {
     const std::array<uint8_t, 3> codes{colour.r, colour.g, colour.b};
     for (size_t c = 0; c < 3; ++c) sum.linear[c] += light_of_codes()[codes[c]];
   }
-  // Passes the colours on, as those of the cubes of `level`, and forgets them.
-  void move_to(SpilledColours* spilled, int level, uint64_t brick) {
+  // Passes the colours of the voxels `of` on, as those of the cubes of `level`, and forgets all.
+  void move_to(SpilledColours* spilled, int level, uint64_t brick, Brick of) {
     for (uint32_t bit = 0; bit < 64; ++bit) {
       Sum& sum = sums_[bit];
+      if ((of >> bit & 1) == 0) sum = {};
       if (sum.count == 0) continue;
       CubeColour colour{brick << 6 | bit, uint8_t(level), true, true, {}};
       for (size_t c = 0; c < 3; ++c)
@@ -130,12 +138,18 @@ class BrickColours {
   std::array<Sum, 64> sums_;
 };
 
-// Reduces sorted voxels of layers; without `has_layers`, only their union. `colours`: takes those
-// of the voxels of `level`; null: they have none.
+// Reduces sorted voxels of layers; without `has_layers`, only their union. A voxel is set if it
+// comes `min_points` times, in all layers together, so that layers do not change the union.
+// `colours`: takes those of the voxels of `level`; null: they have none.
 class LabelledReduction {
  public:
-  LabelledReduction(bool has_layers, int level, SpilledColours* colours, SubDagBuilder* builder)
-      : has_layers_(has_layers), level_(level), colours_(colours), bricks_(builder, has_layers) {}
+  LabelledReduction(bool has_layers, int level, uint64_t min_points, SpilledColours* colours,
+                    SubDagBuilder* builder)
+      : has_layers_(has_layers),
+        level_(level),
+        min_points_(min_points),
+        colours_(colours),
+        bricks_(builder, has_layers) {}
 
   void run(LabelledSort* sort) {
     sort->finish([this](const auto& voxels) {
@@ -155,26 +169,40 @@ class LabelledReduction {
     const Subject layer = subject_of(voxel.label());
     if (sets_.empty() || sets_.back().subject != layer) sets_.push_back({layer, 0});
     sets_.back().brick |= voxel.bit();
+    if (min_points_ > 1) ++counts_[voxel.label_and_bit & 63];
     if (colours_ != nullptr) of_brick_.add(voxel.label_and_bit & 63, voxel.colour);
   }
 
   void add_brick() {
     if (sets_.empty()) return;
-    if (colours_ != nullptr) of_brick_.move_to(colours_, level_, code_);
+    if (min_points_ > 1) keep_frequent();
     Brick all = 0;
     for (const SubjectBrick& set : sets_) all |= set.brick;
+    if (colours_ != nullptr) of_brick_.move_to(colours_, level_, code_, all);
+    if (sets_.empty()) return;
     sets_.push_back({kUnionSet, all});
     has_layers_ ? bricks_.add(code_, sets_) : bricks_.add(code_, all);
     sets_.clear();
   }
 
+  // Removes the voxels of the brick that came less than min_points_ times.
+  void keep_frequent() {
+    Brick kept = 0;
+    for (uint32_t bit = 0; bit < 64; ++bit) kept |= Brick(counts_[bit] >= min_points_) << bit;
+    counts_ = {};
+    for (SubjectBrick& set : sets_) set.brick &= kept;
+    std::erase_if(sets_, [](const SubjectBrick& set) { return set.brick == 0; });
+  }
+
   const bool has_layers_;
   const int level_;
+  const uint64_t min_points_;
   SpilledColours* const colours_;
   BrickReduction bricks_;
   BrickColours of_brick_;
-  uint64_t code_ = 0;               // of the brick being collected
-  std::vector<SubjectBrick> sets_;  // of each layer in it
+  uint64_t code_ = 0;                  // of the brick being collected
+  std::array<uint64_t, 64> counts_{};  // of points in its voxels; unused if one is enough
+  std::vector<SubjectBrick> sets_;     // of each layer in it
 };
 
 // The colours of the voxels of a DAG, which come in Morton order.
@@ -285,10 +313,11 @@ class Import {
     SpilledColours colours(workspace_.scratch());
     RunSet set = runs_of(grid.levels, [&](SubDagBuilder* builder) {
       if (labelled)
-        LabelledReduction(!table.empty(), grid.levels, has_colours ? &colours : nullptr, builder)
+        LabelledReduction(!table.empty(), grid.levels, config_.min_points,
+                          has_colours ? &colours : nullptr, builder)
             .run(&*labelled);
       else
-        VoxelReduction(grid.levels, cubes, builder).run(&*sort);
+        VoxelReduction(grid.levels, config_.min_points, cubes, builder).run(&*sort);
     });
     sort.reset();  // the merge needs the memory
     labelled.reset();
@@ -361,6 +390,10 @@ class Import {
   }
 
   Grid choose_grid(const GridPlacement& place, uint32_t highest) const {
+    if (place.grid) {
+      SVDAG_ASSERT(place.grid->is_valid() && uint64_t(highest) >> place.grid->levels == 0);
+      return *place.grid;
+    }
     const uint64_t needed = std::max<uint64_t>(uint64_t(highest) + 1, place.resolution);
     Grid grid;
     grid.levels = config_.levels != 0 ? config_.levels

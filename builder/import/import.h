@@ -33,6 +33,7 @@ struct ImportConfig {
   Rule rule = Rule::kConservative;  // of the voxels; most formats do not record it
   double largest_snap = 0;          // of the header
   Layout layout = Layout::kPlain;   // --layout
+  uint64_t min_points = 1;          // --min-points: a voxel must come this often, in any layers
 };
 
 struct ImportReport {
@@ -45,6 +46,8 @@ struct ImportReport {
   std::string content_hash;                    // 32 hex digits
   int spilled = 0;                             // number of sorts that did not fit in memory
   std::vector<std::string> dropped_colours{};  // inputs of an edit with colours
+  uint64_t points = 0;                         // that set voxels; 0: not of points
+  uint64_t points_left_out = 0;
 };
 
 // The report of a finished file.

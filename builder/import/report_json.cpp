@@ -12,14 +12,18 @@ std::string layers_text(const ImportReport& report) {
 }
 
 std::string report_json(const ImportReport& report, const std::string& output) {
-  const nlohmann::ordered_json json = {{"output", output},
-                                       {"resolution", report.grid.resolution()},
-                                       {"levels", report.grid.levels},
-                                       {"voxels", report.voxels},
-                                       {"layers", report.layers},
-                                       {"dag_nodes", report.nodes},
-                                       {"file_bytes", report.file_bytes},
-                                       {"content_hash", report.content_hash}};
+  nlohmann::ordered_json json = {{"output", output},
+                                 {"resolution", report.grid.resolution()},
+                                 {"levels", report.grid.levels},
+                                 {"voxels", report.voxels},
+                                 {"layers", report.layers},
+                                 {"dag_nodes", report.nodes},
+                                 {"file_bytes", report.file_bytes},
+                                 {"content_hash", report.content_hash}};
+  if (report.points > 0) {
+    json["points"] = report.points;
+    json["points_left_out"] = report.points_left_out;
+  }
   return json_text(json, 2) + "\n";
 }
 

@@ -47,10 +47,11 @@ constexpr uint32_t version_of(Layout layout, LayerKind layers, bool has_colours 
 }
 
 // Which voxels are set (docs/accuracy.md). The two solid rules differ in what is inside: points
-// whose winding number is not zero, or is odd.
-enum class Rule : uint32_t { kConservative = 0, kThin = 1, kSolid = 2, kSolidOdd = 3 };
+// whose winding number is not zero, or is odd. kPoints: a half-open voxel is set if it holds a
+// point of a cloud; all other rules are of triangles.
+enum class Rule : uint32_t { kConservative = 0, kThin = 1, kSolid = 2, kSolidOdd = 3, kPoints = 4 };
 
-constexpr const char* kRuleNames[] = {"conservative", "thin", "solid", "solid-odd"};
+constexpr const char* kRuleNames[] = {"conservative", "thin", "solid", "solid-odd", "points"};
 
 constexpr const char* rule_name(Rule rule) {
   return kRuleNames[size_t(rule)];

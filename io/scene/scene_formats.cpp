@@ -11,8 +11,8 @@
 #include "io/scene/gltf/gltf_images.h"
 #include "io/scene/gltf/tile.h"
 #include "io/scene/readers/mtl.h"
-#include "io/scene/readers/ply_header.h"
-#include "io/scene/readers/text_scan.h"
+#include "io/values/ply_header.h"
+#include "io/values/text_scan.h"
 #include "streaming/error.h"
 
 namespace svdag {

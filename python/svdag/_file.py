@@ -75,7 +75,7 @@ class File:
         self.voxel_size: float = info["voxel_size"]  #: side of a voxel, in world units
         self.origin: NDArray = np.array(info["corner"])  #: (3,) world position of the corner of voxel (0, 0, 0)
         self.voxels: int = info["voxels"]  #: number of set voxels
-        self.rule: str = info["rule"]  #: conservative, thin, solid or solid-odd
+        self.rule: str = info["rule"]  #: conservative, thin, solid, solid-odd or points
         self.layout: str = info["layout"]  #: plain or compact
         self.content_hash: str = info["content_hash"]  #: equal for files with the same voxels and grid
         self.metadata: dict = json.loads(info["metadata"].decode(errors="replace") or "{}")

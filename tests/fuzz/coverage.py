@@ -14,10 +14,10 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = ROOT / "build" / "coverage"
-TEXT = ["io/scene/readers/text_scan.cpp", "io/scene/readers/decimal.h", "io/scene/polygons/triangulate.cpp"]
+TEXT = ["io/values/text_scan.cpp", "io/values/decimal.h", "io/scene/polygons/triangulate.cpp"]
 GLTF = [f"io/scene/gltf/gltf{part}.cpp" for part in ("", "_buffers", "_document", "_elements", "_json", "_kept", "_nodes", "_transform", "_uri")]
 READERS = {
-    "ply": ["io/scene/readers/ply.cpp", "io/scene/readers/ply_header.cpp", "io/scene/readers/ply_values.h", "io/scene/readers/ply_faces.h"],
+    "ply": ["io/scene/readers/ply.cpp", "io/values/ply_header.cpp", "io/values/ply_values.h", "io/scene/readers/ply_faces.h"],
     "stl": ["io/scene/readers/stl.cpp"],
     "obj": ["io/scene/readers/obj.cpp", "io/scene/readers/obj_plain.h", *TEXT],
     "off": ["io/scene/readers/off.cpp"],

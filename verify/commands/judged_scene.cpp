@@ -21,7 +21,12 @@ SceneConfig placed(SceneConfig config, const Grid& grid) {
 DagFile open_judged(const std::string& path, const SceneConfig& scene) {
   if (scene.paths.size() == 1 && !begins_as_dag(path) && begins_as_dag(scene.paths.front()))
     fail_usage(scene.paths.front() + ": is the .svdag: name it before the scene");
-  return open_dag(path);
+  DagFile file = open_dag(path);
+  if (file.rule() == Rule::kPoints)
+    fail_usage(path +
+               ": its voxels hold points (rule points), which no triangles decide: use "
+               "svdag-verify check");
+  return file;
 }
 
 JudgedScene::JudgedScene(const SceneConfig& config, uint64_t memory, Progress::Mode mode,

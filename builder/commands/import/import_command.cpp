@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "builder/commands/import/points.h"
 #include "builder/commands/import/vdb.h"
 #include "builder/run/bake_output.h"
 #include "io/dag/format.h"
@@ -14,6 +15,7 @@
 #include "io/formats/dags/hashdag_colours.h"
 #include "io/formats/dags/symvox.h"
 #include "io/formats/dags/transform_dag.h"
+#include "io/formats/points/point_files.h"
 #include "io/formats/voxels/binvox.h"
 #include "io/formats/voxels/npz.h"
 #include "io/formats/voxels/vox.h"
@@ -31,6 +33,7 @@ namespace {
 using GraphReader = std::unique_ptr<NodeGraph> (*)(const File&);
 using VoxelReader = GridPlacement (*)(const File&, const VoxelSink&, LayerTable*, bool with_colours,
                                       int up);
+using PointReader = std::unique_ptr<PointCloud> (*)(const File&);
 using FileStart = std::string_view;  // the first bytes of a file
 
 bool looks_like_symvox(const File& file, FileStart) {
@@ -57,6 +60,18 @@ bool looks_like_vox(const File&, FileStart start) {
 bool looks_like_vdb(const File&, FileStart start) {
   return start.starts_with(" BDV") || start.starts_with("NanoVDB");
 }
+bool looks_like_las(const File&, FileStart start) {
+  return start.starts_with("LASF");
+}
+bool looks_like_pcd(const File& file, FileStart start) {
+  return start.starts_with("# .PCD") || has_ending(file.path(), ".pcd");
+}
+bool looks_like_ply_points(const File& file, FileStart start) {
+  return (start.starts_with("ply\n") || start.starts_with("ply\r")) && has_only_points(file);
+}
+bool looks_like_xyz(const File& file, FileStart) {
+  return has_ending(file.path(), ".xyz");
+}
 
 GridPlacement read_binvox_alone(const File& file, const VoxelSink& sink, LayerTable*, bool, int) {
   return read_binvox(file, sink);
@@ -69,19 +84,24 @@ GridPlacement read_npz_alone(const File& file, const VoxelSink& sink, LayerTable
 struct FormatRow {
   const char* name;
   bool (*matches)(const File&, FileStart);
-  GraphReader graph;  // at most one of the two readers is set; for OpenVDB, neither
+  GraphReader graph;  // at most one of the three readers is set; for OpenVDB, none
   VoxelReader voxels;
+  PointReader points;
 };
 
 // The only table of formats; those with a magic number come first.
 constexpr FormatRow kFormats[] = {
-    {"transform-dag", looks_like_transform_dag, read_transform_dag, nullptr},
-    {"npz", looks_like_npz, nullptr, read_npz_alone},
-    {"binvox", looks_like_binvox, nullptr, read_binvox_alone},
-    {"vox", looks_like_vox, nullptr, read_vox},
-    {"vdb", looks_like_vdb, nullptr, nullptr},
-    {"hashdag", looks_like_hashdag, read_hashdag, nullptr},
-    {"symvox", looks_like_symvox, read_symvox, nullptr},
+    {"transform-dag", looks_like_transform_dag, read_transform_dag, nullptr, nullptr},
+    {"npz", looks_like_npz, nullptr, read_npz_alone, nullptr},
+    {"binvox", looks_like_binvox, nullptr, read_binvox_alone, nullptr},
+    {"vox", looks_like_vox, nullptr, read_vox, nullptr},
+    {"vdb", looks_like_vdb, nullptr, nullptr, nullptr},
+    {"las", looks_like_las, nullptr, nullptr, open_las},
+    {"ply", looks_like_ply_points, nullptr, nullptr, open_ply_points},
+    {"pcd", looks_like_pcd, nullptr, nullptr, open_pcd},
+    {"xyz", looks_like_xyz, nullptr, nullptr, open_xyz},
+    {"hashdag", looks_like_hashdag, read_hashdag, nullptr, nullptr},
+    {"symvox", looks_like_symvox, read_symvox, nullptr, nullptr},
 };
 
 const FormatRow& choose(const ImportCommandConfig& config, const File& file) {
@@ -98,9 +118,11 @@ const FormatRow& choose(const ImportCommandConfig& config, const File& file) {
   if (!config.format.empty())
     fail_usage("--format: unknown format \"" + config.format + "\": choose one of " + names);
   if (has_ending(config.file, ".ply"))
+    fail_input(config.file, "is a mesh: bake it with svdag build");
+  if (start == "ASTM-E57")
     fail_input(config.file,
-               "is a mesh or points without a grid: bake a mesh with svdag build; export voxels as "
-               ".npz to import them");
+               "is an E57 file, which svdag cannot read: convert it to .las, for example with pdal "
+               "translate");
   fail_input(config.file, "unknown file format: choose one with --format: " + names +
                               " (svdag build bakes scenes)");
 }
@@ -112,10 +134,15 @@ void reject_options_of_other_formats(const ImportCommandConfig& config, const Fo
       fail_usage(std::string(option) + ": only for " + ending + " files; " + config.file +
                  " is read as " + row.name);
   };
-  const bool is_vdb = row.graph == nullptr && row.voxels == nullptr;
+  const bool is_vdb = row.graph == nullptr && row.voxels == nullptr && row.points == nullptr;
   reject(!is_vdb && !config.grid.empty(), "--grid", ".vdb");
   reject(!is_vdb && config.iso, "--iso", ".vdb");
   reject(row.voxels != read_vox && config.up, "--up", ".vox");
+  const bool is_of_voxels = row.points == nullptr;
+  const char* const points = ".las, .ply, .pcd and .xyz";
+  reject(is_of_voxels && config.voxel_size, "--voxel-size", points);
+  reject(is_of_voxels && config.import.min_points > 1, "--min-points", points);
+  reject(row.points != open_las && config.with_classes, "--layers", ".las");
 }
 
 ImportReport import_as(const FormatRow& row, const File& file, const File* colours,
@@ -137,6 +164,20 @@ ImportReport import_as(const FormatRow& row, const File& file, const File* colou
     };
     return import_voxels(read, import, &executor, 0, &layers);
   }
+  if (row.points != nullptr) {
+    const PointVoxels voxels(
+        row.points(file), config.file,
+        {config.voxel_size, import.levels, !config.no_colours, config.with_classes});
+    const auto read = [&](const VoxelSink& sink, const FullCubeSink&) { return voxels.read(sink); };
+    ImportConfig of_points = import;
+    of_points.rule = Rule::kPoints;
+    const PointSummary& summary = voxels.summary();
+    ImportReport report =
+        import_voxels(read, of_points, &executor, summary.count, &voxels.layers());
+    report.points = summary.count;
+    report.points_left_out = summary.left_out;
+    return report;
+  }
   std::unique_ptr<VdbGrid> grid = read_vdb(config.file, config.grid, config.iso, config.sandbox);
   reject_needless_range(*grid, config.iso);
   const VdbVoxels voxels(std::move(grid), config.file);
@@ -144,6 +185,14 @@ ImportReport import_as(const FormatRow& row, const File& file, const File* colou
     return voxels.read(sink, cubes);
   };
   return import_voxels(read, import, &executor, voxels.count());
+}
+
+// "5 points (1 more left out), " of points, else nothing.
+std::string points_text(const ImportReport& report) {
+  if (report.points == 0) return {};
+  const uint64_t left_out = report.points_left_out;
+  return format_count(report.points, "point") +
+         (left_out == 0 ? "" : " (" + format_count(left_out) + " more left out)") + ", ";
 }
 
 }  // namespace
@@ -178,8 +227,8 @@ int run(const ImportCommandConfig& config) {
   if (config.json)
     std::fputs(report_json(report, config.import.output).c_str(), stdout);
   else if (!config.quiet)
-    std::printf("%s: %s, %s voxels of %s^3%s, %s DAG nodes, %s\n  content hash %s\n",
-                printable(config.import.output).c_str(), row.name,
+    std::printf("%s: %s, %s%s voxels of %s^3%s, %s DAG nodes, %s\n  content hash %s\n",
+                printable(config.import.output).c_str(), row.name, points_text(report).c_str(),
                 format_count(report.voxels).c_str(),
                 format_resolution(uint64_t(report.grid.resolution())).c_str(),
                 (layers_text(report) + (report.has_colours ? ", colours" : "")).c_str(),

@@ -6,12 +6,26 @@
 #include "io/help/command_line.h"
 #include "io/units.h"
 #include "streaming/counts.h"
+#include "streaming/error.h"
 #include "streaming/process/interrupt.h"
 #include "streaming/process/program.h"
 #include "streaming/process/terminate_handler.h"
 
 namespace svdag {
 namespace {
+
+// --voxel-size: points state no units.
+double size_of(const std::string& text) {
+  if (text.find_first_not_of("0123456789.eE+-") != std::string::npos)
+    fail_usage("--voxel-size: \"" + text + "\" is not a size like 0.5, in units of the points");
+  return parse_voxel_size(text, 0);
+}
+
+// --layers.
+bool is_class(const std::string& kind) {
+  if (kind != "class") fail_usage("--layers: \"" + kind + "\" is not class");
+  return true;
+}
 
 void set_up(CLI::App* app, ImportCommandConfig* config) {
   std::string formats;
@@ -30,8 +44,22 @@ void set_up(CLI::App* app, ImportCommandConfig* config) {
          "-r,--resolution",
          [import](const std::string& s) { import->levels = parse_resolution(s); },
          "vdb, npz, binvox, vox: voxels per axis of the grid (default: from the file, or the "
-         "smallest that holds the voxels)")
+         "smallest that holds the voxels); points: of a grid that divides their box")
       ->type_name("N");
+  app->add_option_function<std::string>(
+         "-s,--voxel-size", [config](const std::string& s) { config->voxel_size = size_of(s); },
+         "points: side of a voxel in their units; voxel planes at k times it")
+      ->type_name("S");
+  app->add_option("--min-points", import->min_points,
+                  "points: a voxel needs at least this many (default: 1)")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
+  suggests(
+      app->add_option_function<std::string>(
+          "--layers", [config](const std::string& kind) { config->with_classes = is_class(kind); },
+          "las: also keep the voxels of each class of points, as layers"),
+      {"class"})
+      ->type_name("KIND");
   app->add_option("--grid", config->grid, "vdb: the grid to read (default: the only one)")
       ->type_name("NAME");
   app->add_option_function<std::string>(
@@ -41,7 +69,8 @@ void set_up(CLI::App* app, ImportCommandConfig* config) {
   add_vox_up(app, &config->up);
   app->add_flag("--no-layers", config->no_layers,
                 "npz, vox: no layers of their labels or palette numbers");
-  app->add_flag("--no-colours", config->no_colours, "npz, vox, hashdag: no colours of voxels");
+  app->add_flag("--no-colours", config->no_colours,
+                "npz, vox, hashdag, points: no colours of voxels");
   app->add_flag("--sandbox", config->sandbox,
                 "vdb: decode in a process that can only compute, for untrusted files");
   add_layout(app, &import->layout);
@@ -59,6 +88,7 @@ void set_up(CLI::App* app, ImportCommandConfig* config) {
   add_examples(app,
                {"svdag import atrium64k.basic_dag.dag.bin -o atrium.svdag",
                 "svdag import points.npz -o points.svdag -r 1K",
+                "svdag import tile.las -o tile.svdag -s 0.05 --layers class",
                 "svdag import levelset.vdb --iso=-inf,0 -o solid.svdag"},
                "See also: svdag help formats.");
 }

@@ -4,7 +4,7 @@
 
 #include "io/scene/gltf/gltf_json.h"
 #include "io/scene/gltf/gltf_uri.h"
-#include "io/scene/readers/endian.h"
+#include "io/values/endian.h"
 #include "streaming/error.h"
 
 namespace svdag {

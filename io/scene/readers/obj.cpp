@@ -22,7 +22,7 @@
 #include "io/scene/readers/obj_cut_out.h"
 #include "io/scene/readers/obj_paint.h"
 #include "io/scene/readers/obj_plain.h"
-#include "io/scene/readers/text_scan.h"
+#include "io/values/text_scan.h"
 
 namespace svdag {
 namespace {

@@ -10,8 +10,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "io/scene/readers/decimal.h"
 #include "io/triangle.h"
+#include "io/values/decimal.h"
 
 namespace svdag {
 

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "io/scene/polygons/mesh_writer.h"
-#include "io/scene/readers/text_scan.h"
+#include "io/values/text_scan.h"
 
 namespace svdag {
 namespace {

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "io/scene/readers/ply_faces.h"
-#include "io/scene/readers/ply_values.h"
+#include "io/values/ply_values.h"
 
 namespace svdag {
 namespace {

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "io/scene/polygons/mesh_writer.h"
-#include "io/scene/readers/ply_values.h"
+#include "io/values/ply_values.h"
 
 namespace svdag {
 

@@ -11,8 +11,8 @@
 #include <cctype>
 
 #include "io/scene/polygons/mesh_writer.h"
-#include "io/scene/readers/endian.h"
-#include "io/scene/readers/text_scan.h"
+#include "io/values/endian.h"
+#include "io/values/text_scan.h"
 #include "streaming/error.h"
 
 namespace svdag {

@@ -7,7 +7,7 @@
 #include <exception>
 #include <memory>
 
-#include "io/scene/readers/decimal.h"
+#include "io/values/decimal.h"
 #include "streaming/error.h"
 
 namespace svdag {

@@ -80,7 +80,7 @@ class Svdag:
         demand(self.layer_kind in (0, 1, 2, 3, 4) and self.has_union in (0, 1) and zero_2 == 0, "layers")
         demand(self.layer_kind or not any(self.data[792:824]), "layers of a file without")
         demand(3 <= self.L <= 20 and self.F == min(23, 39 - self.L), "L or F")
-        demand(self.rule in (0, 1, 2, 3) and self.kind in (0, 1, 2) and self.bounded in (0, 1), "rule, kind or flag")
+        demand(self.rule in (0, 1, 2, 3, 4) and self.kind in (0, 1, 2) and self.bounded in (0, 1), "rule, kind or flag")
         demand(count == self.L - 1, "number of sections")
         self.entries = [struct.unpack_from("<3Q", self.data, 176 + 24 * k) for k in range(19)]
         demand(not any(map(any, self.entries[self.L - 1:])), "unused entries")
@@ -310,7 +310,7 @@ class Svdag:
         text = self.data[self.metadata_at:self.metadata_at + self.metadata_size].decode()
         demand(json.loads(text) == {
             "format": "svdag", "version": self.version, **({"layout": "compact"} if self.compact else {}), "levels": self.L, "resolution": 2**self.L,
-            "rule": ["conservative", "thin", "solid", "solid-odd"][self.rule], "fraction_bits": self.F,
+            "rule": ["conservative", "thin", "solid", "solid-odd", "points"][self.rule], "fraction_bits": self.F,
             "grid": {"kind": ["box", "lattice", "origin"][self.kind], "corner": self.corner,
                      "voxel_size": self.voxel_size, "k0": self.k0, "bounded": bool(self.bounded),
                      "selection": self.selection, **({"origin": self.origin} if self.kind == 2 else {})},
@@ -396,7 +396,7 @@ class Svdag:
     def check_layer_voxels(self):
         """Each layer's number of voxels and selection; the union of rules conservative and thin is that of the layers."""
         found = [self.voxels(i) for i in range(len(self.layers))]
-        if self.layer_kind and self.has_union and self.rule < 2:
+        if self.layer_kind and self.has_union and self.rule not in (2, 3):
             together = {tuple(voxel) for voxels in found for voxel in voxels.tolist()}
             demand({tuple(voxel) for voxel in self.voxels().tolist()} == together, "the union is not that of the layers")
 

@@ -1,7 +1,7 @@
 // Words and numbers of a text file, through the small window of a ByteStream.
 //
 // Lines end with "\n", "\r\n" or "\r"; blanks are spaces and tabs. Decimal numbers become the
-// nearest double (or float), whatever the locale (io/scene/readers/decimal.h), with a leading "+"
+// nearest double (or float), whatever the locale (io/values/decimal.h), with a leading "+"
 // allowed. A zero byte is an error anywhere, in skipped text too: holes left by a crash or an
 // incomplete copy are zeros, and would hide the lines that they cover. Invariant: after
 // skip_blanks() a whole word is visible, or the word is too long to be one. Rejected: iostreams (20
@@ -14,7 +14,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/scene/readers/decimal.h"
+#include "io/values/decimal.h"
 #include "streaming/file/byte_stream.h"
 
 namespace svdag {

@@ -1,10 +1,10 @@
-#include "io/scene/readers/ply_header.h"
+#include "io/values/ply_header.h"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 
-#include "io/scene/readers/text_scan.h"
+#include "io/values/text_scan.h"
 #include "streaming/error.h"
 
 namespace svdag {

@@ -1,4 +1,4 @@
-#include "io/scene/readers/text_scan.h"
+#include "io/values/text_scan.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,4 +1,4 @@
-#include "io/scene/readers/decimal.h"
+#include "io/values/decimal.h"
 
 #include <gtest/gtest.h>
 

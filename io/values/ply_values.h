@@ -12,9 +12,9 @@
 #include <string>
 #include <type_traits>
 
-#include "io/scene/readers/endian.h"
-#include "io/scene/readers/ply_header.h"
-#include "io/scene/readers/text_scan.h"
+#include "io/values/endian.h"
+#include "io/values/ply_header.h"
+#include "io/values/text_scan.h"
 #include "streaming/error.h"
 
 namespace svdag {
