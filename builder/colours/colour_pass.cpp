@@ -260,7 +260,7 @@ class ColourPass {
 // selection.
 void check_bounds(const DagFile& file, const PaintedScene& scene) {
   if (file.rule() == Rule::kPoints)
-    fail_foreign(file, "its voxels hold points, whose colours svdag import stores");
+    fail_input(file.path(), "has rule points, not of triangles: svdag import stores the colours");
   if (file.view().empty() || (is_solid(file.rule()) && file.grid().bounded)) return;
   if (scene.is_empty) fail_foreign(file, "no triangle of the scene meets its grid");
   const Lattice lattice(file.grid());

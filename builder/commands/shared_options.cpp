@@ -17,7 +17,8 @@ namespace {
 
 Rule parse_rule(const std::string& name) {
   const auto rule = rule_named(name);
-  if (rule == Rule::kPoints) fail_usage("--rule points: is of points, which svdag import reads");
+  if (rule == Rule::kPoints)
+    fail_usage("--rule points: only for files of points: use svdag import");
   if (rule) return *rule;
   fail_usage("--rule: unknown rule \"" + name + "\": choose conservative, thin or solid");
 }

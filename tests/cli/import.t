@@ -33,11 +33,8 @@ $ svdag export a.svdag -o c.npz --up z
 $ svdag import a.npz -o c.svdag --up z
 ! svdag: --up: only for .vox files; a.npz is read as npz
 ? 2
-# The points of an export are neither voxels with a grid nor triangles.
+# The points of an export are not triangles.
 $ svdag export a.svdag -o points.ply -q
-$ svdag import points.ply -o back.svdag
-! svdag: points.ply: is a mesh or points without a grid: bake a mesh with svdag build; export voxels as .npz to import them
-? 3
 $ svdag build points.ply -o back.svdag -r 64
 ! svdag: points.ply: the scene has no triangles to bake; points.ply holds only points: reconstruct a surface first, for example with CloudCompare
 ? 3
@@ -95,6 +92,109 @@ $ ls
 | a.svdag
 | a.vdb
 
+## import_points
+# A voxel is set if it holds a point; its lower planes belong to it. -s: planes at multiples of it. -r: divides the box of the points.
+$ printf '0 0 0 255 0 0\n0.5 0 0 0 255 0\n0.25 0.25 0.25 0 0 255\n7 7 7 9 9 9\nnan 0 0 1 1 1\n' > a.xyz
+$ svdag import a.xyz -o a.svdag -s 0.5
+| a.svdag: xyz, 4 points (1 more left out), 3 voxels of 16^3, colours, 5 DAG nodes, 1.6 KiB
+|   content hash 1edaeef5638ac1201d9016fd637bbff2
+$ svdag-verify check a.svdag -q
+$ printf '0.49 0 0\n0.5 0.49 0\n1 0 0\n' | svdag query a.svdag
+| set 4  0 0 0  0.5 0.5 0.5  #bc00bc
+| set 4  0.5 0 0  1 0.5 0.5  #00ff00
+| empty 3  1 0 0  2 1 1
+$ svdag import a.xyz -o a.svdag -s 0.5 --min-points 2 --json
+| {
+|   "output": "a.svdag",
+|   "resolution": 16,
+|   "levels": 4,
+|   "voxels": 1,
+|   "layers": 0,
+|   "dag_nodes": 3,
+|   "file_bytes": 1608,
+|   "content_hash": "de26a0937a0a1a825d1055aa4fd2a0dd",
+|   "points": 4,
+|   "points_left_out": 1
+| }
+$ svdag import a.xyz -o b.svdag -r 8 --no-colours
+| b.svdag: xyz, 4 points (1 more left out), 3 voxels of 8^3, 3 DAG nodes, 1.4 KiB
+|   content hash 63010aa06c41639959520235d4bc4a67
+# Rule points is not a rule of triangles.
+$ svdag-scene city -n 3K -q -o city.ply
+$ svdag-verify mesh b.svdag city.ply
+! svdag-verify: b.svdag: has rule points, which triangles do not decide: use svdag-verify check
+? 2
+$ svdag colour b.svdag city.ply -o c.svdag
+! svdag: b.svdag: has rule points, not of triangles: svdag import stores the colours
+? 3
+$ svdag build city.ply -o c.svdag -r 64 --rule points
+! svdag: --rule points: only for files of points: use svdag import
+? 2
+$ svdag-verify trace b.svdag city.ply
+! svdag-verify: b.svdag: has rule points, which triangles do not decide: use svdag-verify check
+? 2
+$ svdag-verify diff a.svdag b.svdag -q
+! svdag-verify: a.svdag and b.svdag have grids in different places, corner (0, 0, 0), side 8 and corner (-0.5, -0.5, -0.5), side 8: to compare them by voxel index add --by-index
+? 2
+# Centres of voxels, exported and imported at the same size, are the same voxels.
+$ svdag build city.ply -o city.svdag -s 1 --origin 0,0,0 -q
+$ svdag export city.svdag -o points.ply -q
+$ svdag import points.ply -o back.svdag -s 1 -q
+$ svdag-verify diff city.svdag back.svdag -q
+# Wrong requests.
+$ svdag import a.xyz -o c.svdag
+! svdag: points need a voxel size or a resolution: give -s or -r, not both
+? 2
+$ svdag import a.xyz -o c.svdag -s 0.5 -r 8
+! svdag: points need a voxel size or a resolution: give -s or -r, not both
+? 2
+$ svdag import a.xyz -o c.svdag -s 5cm
+! svdag: --voxel-size: "5cm" is not a size like 0.5, in units of the points
+? 2
+$ svdag import a.xyz -o c.svdag -s 1e-9
+! svdag: -s: the points need more than 1M voxels on an axis: choose larger voxels
+? 2
+$ svdag import a.xyz -o c.svdag -s 1e-20
+! svdag: -s: the points are more than 2^38 voxels away from zero: choose larger voxels
+? 2
+$ svdag import a.xyz -o c.svdag -s 0.5 --layers class
+! svdag: --layers: only for .las files; a.xyz is read as xyz
+? 2
+$ svdag import a.xyz -o c.svdag -s 0.5 --layers file
+! svdag: --layers: "file" is not class
+? 2
+$ svdag import a.xyz -o c.svdag -s 0.5 --min-points 0
+! svdag: --min-points: "0" is not a number from 1 to 1000000000; see svdag import --help
+? 2
+$ svdag import city.ply -o c.svdag -s 1
+! svdag: city.ply: is a mesh: bake it with svdag build
+? 3
+$ echo 1000000000 0 0 > one.xyz
+$ svdag import one.xyz -o c.svdag -r 64
+! svdag: -r: all points of one.xyz are at one place: give -s instead
+? 2
+$ echo 1000000000.000001 0 0 >> one.xyz
+$ svdag import one.xyz -o c.svdag -r 64K
+! svdag: -r: voxels of 1.455213727635996e-11 are below the precision of the coordinates of one.xyz: choose a lower resolution
+? 2
+$ printf 'ASTM-E57 and more' > a.e57
+$ svdag import a.e57 -o c.svdag -s 1
+! svdag: a.e57: is an E57 file, which svdag cannot read: convert it to .las, for example with pdal translate
+? 3
+$ printf 'LASF' > a.las
+$ svdag import a.las -o c.svdag -s 1
+! svdag: a.las: ends within its header (at byte 4)
+? 3
+$ svdag export city.svdag -o a.npz -q
+$ svdag import a.npz -o c.svdag -s 1
+! svdag: --voxel-size: only for .las, .ply, .pcd and .xyz files; a.npz is read as npz
+? 2
+$ ls *.svdag
+| a.svdag
+| b.svdag
+| back.svdag
+| city.svdag
+
 ## import_vdb
 # OpenVDB decodes in a separate process; --sandbox gives the same result.
 $ svdag-scene city -n 3K -q -o a.ply
@@ -136,7 +236,7 @@ $ svdag import a.svdag -o b.svdag
 ! svdag: a.svdag: is already a .svdag of this program
 ? 2
 $ svdag import a.ply -o b.svdag
-! svdag: a.ply: is a mesh or points without a grid: bake a mesh with svdag build; export voxels as .npz to import them
+! svdag: a.ply: is a mesh: bake it with svdag build
 ? 3
 $ svdag import a.vox -o a.vox
 ! svdag: a.vox is also an input, which is never overwritten: choose another output
@@ -145,7 +245,7 @@ $ svdag import a.vox -o b.svdag -r 32
 ! svdag: -r: the voxels need a resolution of at least 64
 ? 2
 $ svdag import a.vox -o b.svdag --format foo
-! svdag: --format: unknown format "foo": choose one of transform-dag, npz, binvox, vox, vdb, hashdag, symvox
+! svdag: --format: unknown format "foo": choose one of transform-dag, npz, binvox, vox, vdb, las, ply, pcd, xyz, hashdag, symvox
 ? 2
 $ svdag import a.vox -o b.svdag --format npz
 ! svdag: a.vox: is not a zip file (it has no directory)

@@ -23,9 +23,7 @@ DagFile open_judged(const std::string& path, const SceneConfig& scene) {
     fail_usage(scene.paths.front() + ": is the .svdag: name it before the scene");
   DagFile file = open_dag(path);
   if (file.rule() == Rule::kPoints)
-    fail_usage(path +
-               ": its voxels hold points (rule points), which no triangles decide: use "
-               "svdag-verify check");
+    fail_usage(path + ": has rule points, which triangles do not decide: use svdag-verify check");
   return file;
 }
 

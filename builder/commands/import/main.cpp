@@ -50,9 +50,9 @@ void set_up(CLI::App* app, ImportCommandConfig* config) {
          "-s,--voxel-size", [config](const std::string& s) { config->voxel_size = size_of(s); },
          "points: side of a voxel in their units; voxel planes at k times it")
       ->type_name("S");
-  app->add_option("--min-points", import->min_points,
-                  "points: a voxel needs at least this many (default: 1)")
-      ->check(CLI::PositiveNumber)
+  from_to(app->add_option("--min-points", import->min_points,
+                          "points: a voxel needs at least this many (default: 1)"),
+          1, 1000000000)
       ->type_name("N");
   suggests(
       app->add_option_function<std::string>(

@@ -11,8 +11,9 @@ import sys
 import tempfile
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+sys.path[:0] = [str(pathlib.Path(__file__).resolve().parent), str(pathlib.Path(__file__).resolve().parents[1] / "formats")]
 import manuals
+import write_points
 
 PROGRAMS = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release").resolve()
 TOPICS = pathlib.Path(__file__).resolve().parents[3] / "builder" / "commands" / "topics"
@@ -67,6 +68,7 @@ LINES = {"svdag build": "city.ply -o other.svdag -r 64", "svdag batch": "city.li
          "svdag-trace": "city.svdag --size 16x16 --samples 1 --rounds 1"}
 # Of options of one format.
 LINES_WITH = {("svdag export", "--up"): "city.svdag -o out.vox", ("svdag import", "--up"): "city.vox -o in.svdag",
+              ("svdag import", "--layers"): "tile.las -o in.svdag -s 1",
               ("svdag export", "--max-quads"): "city.svdag -o out.glb", ("svdag export", "--no-merge"): "city.svdag -o out.glb"}
 BY_MACHINE = ["--vectors"]  # the values depend on the processor
 
@@ -80,6 +82,7 @@ class Choices(unittest.TestCase):
         for line in ("svdag-scene city -n 2K -q -o city.ply", "svdag build city.ply -q -o city.svdag -r 64 --report city.json",
                      "svdag export city.svdag -q -o city.npz", "svdag export city.svdag -q -o city.vox"):
             assert cls.run_line(line).returncode == 0, line
+        (pathlib.Path(cls.folder.name) / "tile.las").write_bytes(write_points.las([[1, 2, 3]], [0.01] * 3, [0] * 3))
 
     @classmethod
     def tearDownClass(cls):
