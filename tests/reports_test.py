@@ -37,6 +37,8 @@ svdag export city.svdag -o city.npz
 svdag export city.svdag -o city.glb
 svdag export red.svdag -o red.vox
 svdag import city.npz -o back.svdag
+svdag export city.svdag -o points.ply
+svdag import points.ply -o points.svdag -r 64
 svdag build city.ply -o dry.svdag -r 64 --dry-run
 svdag info city.svdag
 svdag info half.run
