@@ -12,9 +12,9 @@ from . import _svdag
 from ._commands import convert, diff, edit, export, import_file, info, pack, unpack, verify_mesh
 from ._error import Error
 from ._file import File, Hits, Layer, open, unpack_bricks  # noqa: A004
-from ._make import build, build_files, from_array, from_coords
+from ._make import build, build_files, from_array, from_coords, from_points
 from .usd import build_usd
 
 __all__ = ["Error", "File", "Hits", "Layer", "build", "build_files", "build_usd", "convert", "diff", "edit", "export", "from_array",
-           "from_coords", "import_file", "info", "open", "pack", "unpack", "unpack_bricks", "verify_mesh"]
+           "from_coords", "from_points", "import_file", "info", "open", "pack", "unpack", "unpack_bricks", "verify_mesh"]
 __version__ = _svdag.__version__

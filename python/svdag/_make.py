@@ -21,6 +21,7 @@ _LAYOUTS = {"plain": 0, "compact": 1}
 _MEMORY = "/dev/shm"  # a file system in memory, where a small result waits for no disk
 _SMALL_INPUT = 1 << 26  # bytes; of a larger one the result goes to disk
 _MIN_FREE = 1 << 30  # bytes
+_ROWS = 1 << 20  # of points, written at once
 
 Made = Any  #: the report as a dict or, if the path is None, a File in memory, which has the report
 
@@ -171,6 +172,42 @@ def from_coords(coords: ArrayLike, path: Optional[PathLike] = None, *, resolutio
         return _svdag.from_coords(voxels, os.fsencode(output), side.bit_length() - 1, corner, float(voxel_size),
                                   max(0, operator.index(memory)), _RULES[rule], _LAYOUTS[layout], os.fsencode(scratch))
     return made(path, write, voxels.nbytes)
+
+
+def from_points(points: ArrayLike, path: Optional[PathLike] = None, *, colours: Optional[ArrayLike] = None, **options: Any) -> Made:
+    """Writes the voxels that hold points, (n, 3) real numbers, as `svdag import` does, and returns its report. None: in memory, as build().
+
+    colours: (n, 3) uint8, of which a voxel has the mean. options: those of `svdag import`: voxel_size=0.05 or resolution="4K",
+    min_points=2, memory="1G", layout="compact", ...
+    """
+    array = rows(points, "<f8", "points")
+    fields, channels = [("point", "<f8", 3)], ""
+    if colours is not None:
+        colours = np.asarray(colours)
+        if colours.dtype != np.uint8 or colours.shape != array.shape:
+            raise ValueError(f"colours: {colours.dtype} of the shape {colours.shape}, not uint8 of {array.shape}")
+        fields.append(("colour", "u1", 3))
+        channels = "".join(f"property uchar {name}\n" for name in ("red", "green", "blue"))
+
+    def write(output: PathLike) -> Dict[str, Any]:
+        folder = os.path.dirname(os.path.abspath(os.fsdecode(output)))
+        with tempfile.TemporaryDirectory(prefix=".svdag-points-", dir=folder if os.path.isdir(folder) else None) as temporary:
+            cloud = pathlib.Path(temporary) / "points.ply"
+            with cloud.open("wb") as file:
+                file.write(f"ply\nformat binary_little_endian 1.0\nelement vertex {len(array)}\nproperty double x\n"
+                           f"property double y\nproperty double z\n{channels}end_header\n".encode())
+                for begin in range(0, len(array), _ROWS):
+                    part = np.empty(min(_ROWS, len(array) - begin), fields)
+                    part["point"] = array[begin:begin + _ROWS]
+                    if colours is not None:
+                        part["colour"] = colours[begin:begin + _ROWS]
+                    part.tofile(file)
+            try:
+                return _programs.run_json("svdag", "import", cloud, "-o", output, "--format=ply", *_programs.words_of(options))
+            except Error as error:
+                raise without_folder(error, temporary) from None
+    _scratch_on_disk(path, options)
+    return made(path, write, array.nbytes)
 
 
 def from_array(array: ArrayLike, path: Optional[PathLike] = None, *, threshold: Optional[float] = None, **options: Any) -> Made:

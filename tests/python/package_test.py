@@ -444,6 +444,25 @@ class Programs(Files):
         self.assertEqual(report["voxels"], len(self.coords))
         self.assertTrue(svdag.diff(self.plain, self.folder / "back.svdag")["same"])
 
+    def test_points_set_the_voxels_that_hold_them(self):
+        points = self.random.uniform(-9, 9, (5000, 3))
+        points[:20] = np.floor(points[:20])
+        colours = self.random.integers(0, 256, points.shape, np.uint8)
+        report = svdag.from_points(points, self.folder / "points.svdag", voxel_size=0.5, colours=colours)
+        self.assertEqual(report["points"], len(points))
+        cells, counts = np.unique(np.floor(points / 0.5), axis=0, return_counts=True)
+        with svdag.open(self.folder / "points.svdag") as file:
+            self.assertEqual((file.rule, file.voxels), ("points", len(cells)))
+            self.assertTrue(file.occupied(points).all())
+        with svdag.from_points(points, resolution="1K", min_points=2) as file:
+            self.assertLess(file.voxels, len(points))
+        self.assertEqual(svdag.from_points(points, self.folder / "points.svdag", voxel_size=0.5, min_points=3)["voxels"],
+                         (counts >= 3).sum())
+        with self.assertRaises(ValueError):
+            svdag.from_points(points, voxel_size=0.5, colours=colours[1:])
+        with self.assertRaises(svdag.Error):
+            svdag.from_points(points)
+
     def test_info_is_that_of_the_program(self):
         printed = json.loads(program("svdag", "info", self.folder / "layers.svdag", "--layers", "--json"))
         with svdag.open(self.folder / "layers.svdag") as file:
