@@ -41,6 +41,7 @@ READERS = {
     "npz": ["io/formats/voxels/npz.cpp", "io/formats/voxels/zip.cpp"],
     "binvox": ["io/formats/voxels/binvox.cpp"],
     "vox": ["io/formats/voxels/vox_read.cpp"],
+    "points": [f"io/formats/points/{name}.cpp" for name in ("las", "pcd", "ply_cloud", "point_grid", "xyz")],
     "vdb": ["io/formats/vdb/vdb_child.cpp", "io/formats/vdb/vdb_read.cpp", "io/formats/sent_cubes.cpp"],
 }
 
