@@ -141,7 +141,25 @@ $ svdag build city.ply -o city.svdag -s 1 --origin 0,0,0 -q
 $ svdag export city.svdag -o points.ply -q
 $ svdag import points.ply -o back.svdag -s 1 -q
 $ svdag-verify diff city.svdag back.svdag -q
+# Several files share a grid; each can be a layer.
+$ echo 3 3 3 > b.xyz
+$ svdag import a.xyz b.xyz -o both.svdag -s 0.5 --layers file
+| both.svdag: xyz, 5 points (1 more left out), 4 voxels of 16^3, 2 layers, 8 DAG nodes, 1.6 KiB
+|   content hash 3de3a9fa18092b4647121ca72c5341c8
+$ svdag info both.svdag --layers
+| both.svdag: 16^3 voxels, rule points
+|   voxel size 0.5, corner (0, 0, 0)
+|   occupied: voxels 0 .. 14, 0 .. 14, 0 .. 14; (0, 0, 0) to (7.5, 7.5, 7.5)
+|   4 voxels set, 9 SVO nodes, 8 DAG nodes (10 with 2x2x2 leaves)
+|   1.6 KiB, 3.22e+03 bits per voxel; as SVO 9 bytes
+|   2 layers, one for each file
+|   content hash 3de3a9fa18092b4647121ca72c5341c8
+|
+|               voxels          nodes      own nodes  colour   layer
+|                    3              5              2  #aef2bf  a.xyz
+|                    1              3              1  #4f6d9e  b.xyz
 # Wrong requests.
+$ svdag export city.svdag -o a.npz -q
 $ svdag import a.xyz -o c.svdag
 ! svdag: points need a voxel size or a resolution: give -s or -r, not both
 ? 2
@@ -158,10 +176,16 @@ $ svdag import a.xyz -o c.svdag -s 1e-20
 ! svdag: -s: the points are more than 2^38 voxels away from zero: choose larger voxels
 ? 2
 $ svdag import a.xyz -o c.svdag -s 0.5 --layers class
-! svdag: --layers: only for .las files; a.xyz is read as xyz
+! svdag: --layers class: only for .las files; a.xyz is read as xyz
 ? 2
-$ svdag import a.xyz -o c.svdag -s 0.5 --layers file
-! svdag: --layers: "file" is not class
+$ svdag import a.xyz -o c.svdag -s 0.5 --layers object
+! svdag: --layers: unknown kind "object": choose class or file
+? 2
+$ svdag import a.xyz a.npz -o c.svdag -s 0.5
+! svdag: --voxel-size: only for .las, .ply, .pcd and .xyz files; a.npz is read as npz
+? 2
+$ svdag import a.xyz a.xyz c.svdag -o c.svdag -s 0.5
+! svdag: c.svdag is also an input, which is never overwritten: choose another output
 ? 2
 $ svdag import a.xyz -o c.svdag -s 0.5 --min-points 0
 ! svdag: --min-points: "0" is not a number from 1 to 1000000000; see svdag import --help
@@ -171,11 +195,11 @@ $ svdag import city.ply -o c.svdag -s 1
 ? 3
 $ echo 1000000000 0 0 > one.xyz
 $ svdag import one.xyz -o c.svdag -r 64
-! svdag: -r: all points of one.xyz are at one place: give -s instead
+! svdag: -r: all points are at one place: give -s instead
 ? 2
 $ echo 1000000000.000001 0 0 >> one.xyz
 $ svdag import one.xyz -o c.svdag -r 64K
-! svdag: -r: voxels of 1.455213727635996e-11 are below the precision of the coordinates of one.xyz: choose a lower resolution
+! svdag: -r: voxels of 1.455213727635996e-11 are below the precision of the coordinates: choose a lower resolution
 ? 2
 $ printf 'ASTM-E57 and more' > a.e57
 $ svdag import a.e57 -o c.svdag -s 1
@@ -185,7 +209,6 @@ $ printf 'LASF' > a.las
 $ svdag import a.las -o c.svdag -s 1
 ! svdag: a.las: ends within its header (at byte 4)
 ? 3
-$ svdag export city.svdag -o a.npz -q
 $ svdag import a.npz -o c.svdag -s 1
 ! svdag: --voxel-size: only for .las, .ply, .pcd and .xyz files; a.npz is read as npz
 ? 2
@@ -193,6 +216,7 @@ $ ls *.svdag
 | a.svdag
 | b.svdag
 | back.svdag
+| both.svdag
 | city.svdag
 
 ## import_vdb

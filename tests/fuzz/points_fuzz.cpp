@@ -10,10 +10,13 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size == 0) return 0;
   const MemoryFile memory(std::as_bytes(std::span(data + 1, size - 1)));
   try {
-    const auto cloud = kReaders[data[0] % std::size(kReaders)](memory.file());
-    const PointSummary summary = summarize(*cloud, "points");
-    const Grid grid = grid_of_points(*cloud, summary, 1.0, 0, "points");
-    const PointCells cells(*cloud, summary, grid);
+    std::array<PointInput, 1> inputs;
+    auto& [path, cloud, summary] = inputs[0];
+    cloud = kReaders[data[0] % std::size(kReaders)](memory.file());
+    summary = summarize(*cloud, path);
+    if (summary.empty()) return 0;
+    const Grid grid = grid_of_points(inputs, 1.0, 0);
+    const PointCells cells(inputs[0], grid);
     uint64_t count = 0;
     cloud->read([&](const PointBatch& batch) {
       count += batch.points.size();
@@ -23,7 +26,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
         for (const uint32_t k : cells.of(point))
           if (k >> grid.levels != 0) std::abort();
     });
-    if (count != summary.count) std::abort();
+    if (count != inputs[0].summary.count) std::abort();
   } catch (const Error& error) {
     if (error.code() != ExitCode::kUsage) expect_bad_input(error);  // a grid that is too large
   }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdio>
 #include <cstring>
+#include <deque>
 #include <filesystem>
 #include <optional>
 
@@ -105,11 +106,12 @@ constexpr FormatRow kFormats[] = {
 };
 
 const FormatRow& choose(const ImportCommandConfig& config, const File& file) {
+  const std::string& path = file.path();
   std::array<char, 8> bytes{};
   const size_t size = file.read_some_at(0, std::as_writable_bytes(std::span(bytes)));
   const FileStart start(bytes.data(), size);
   if (size == sizeof kMagic && std::memcmp(bytes.data(), kMagic, sizeof kMagic) == 0)
-    fail_usage(config.file + ": is already a .svdag of this program");
+    fail_usage(path + ": is already a .svdag of this program");
   std::string names;
   for (const FormatRow& row : kFormats) {
     if (config.format.empty() ? row.matches(file, start) : config.format == row.name) return row;
@@ -117,22 +119,22 @@ const FormatRow& choose(const ImportCommandConfig& config, const File& file) {
   }
   if (!config.format.empty())
     fail_usage("--format: unknown format \"" + config.format + "\": choose one of " + names);
-  if (has_ending(config.file, ".ply"))
-    fail_input(config.file, "is a mesh: bake it with svdag build");
+  if (has_ending(path, ".ply")) fail_input(path, "is a mesh: bake it with svdag build");
   if (start == "ASTM-E57")
-    fail_input(config.file,
+    fail_input(path,
                "is an E57 file, which svdag cannot read: convert it to .las, for example with pdal "
                "translate");
-  fail_input(config.file, "unknown file format: choose one with --format: " + names +
-                              " (svdag build bakes scenes)");
+  fail_input(path, "unknown file format: choose one with --format: " + names +
+                       " (svdag build bakes scenes)");
 }
 
 // Rejects options of other formats, which this one would ignore.
-void reject_options_of_other_formats(const ImportCommandConfig& config, const FormatRow& row) {
+void reject_options_of_other_formats(const ImportCommandConfig& config, const std::string& path,
+                                     const FormatRow& row) {
   const auto reject = [&](bool given, const char* option, const char* ending) {
     if (given)
-      fail_usage(std::string(option) + ": only for " + ending + " files; " + config.file +
-                 " is read as " + row.name);
+      fail_usage(std::string(option) + ": only for " + ending + " files; " + path + " is read as " +
+                 row.name);
   };
   const bool is_vdb = row.graph == nullptr && row.voxels == nullptr && row.points == nullptr;
   reject(!is_vdb && !config.grid.empty(), "--grid", ".vdb");
@@ -142,7 +144,23 @@ void reject_options_of_other_formats(const ImportCommandConfig& config, const Fo
   const char* const points = ".las, .ply, .pcd and .xyz";
   reject(is_of_voxels && config.voxel_size, "--voxel-size", points);
   reject(is_of_voxels && config.import.min_points > 1, "--min-points", points);
-  reject(row.points != open_las && config.with_classes, "--layers", ".las");
+  reject(is_of_voxels && config.layers != LayerKind::kNone, "--layers", points);
+  reject(row.points != open_las && config.layers == LayerKind::kMaterial, "--layers class", ".las");
+  if (is_of_voxels && config.files.size() > 1)
+    fail_usage(path + ": is read as " + row.name + ": several files must be of points");
+}
+
+ImportReport import_points(std::vector<PointInput> inputs, const ImportCommandConfig& config,
+                           ImportConfig import) {
+  ParallelExecutor executor(threads_or_all(config.threads));
+  import.rule = Rule::kPoints;
+  const PointVoxels voxels(std::move(inputs),
+                           {config.voxel_size, import.levels, !config.no_colours, config.layers});
+  const auto read = [&](const VoxelSink& sink, const FullCubeSink&) { return voxels.read(sink); };
+  ImportReport report = import_voxels(read, import, &executor, voxels.count(), &voxels.layers());
+  report.points = voxels.count();
+  report.points_left_out = voxels.left_out();
+  return report;
 }
 
 ImportReport import_as(const FormatRow& row, const File& file, const File* colours,
@@ -164,23 +182,9 @@ ImportReport import_as(const FormatRow& row, const File& file, const File* colou
     };
     return import_voxels(read, import, &executor, 0, &layers);
   }
-  if (row.points != nullptr) {
-    const PointVoxels voxels(
-        row.points(file), config.file,
-        {config.voxel_size, import.levels, !config.no_colours, config.with_classes});
-    const auto read = [&](const VoxelSink& sink, const FullCubeSink&) { return voxels.read(sink); };
-    ImportConfig of_points = import;
-    of_points.rule = Rule::kPoints;
-    const PointSummary& summary = voxels.summary();
-    ImportReport report =
-        import_voxels(read, of_points, &executor, summary.count, &voxels.layers());
-    report.points = summary.count;
-    report.points_left_out = summary.left_out;
-    return report;
-  }
-  std::unique_ptr<VdbGrid> grid = read_vdb(config.file, config.grid, config.iso, config.sandbox);
+  std::unique_ptr<VdbGrid> grid = read_vdb(file.path(), config.grid, config.iso, config.sandbox);
   reject_needless_range(*grid, config.iso);
-  const VdbVoxels voxels(std::move(grid), config.file);
+  const VdbVoxels voxels(std::move(grid), file.path());
   const auto read = [&](const VoxelSink& sink, const FullCubeSink& cubes) {
     return voxels.read(sink, cubes);
   };
@@ -204,26 +208,37 @@ std::vector<std::string> import_formats() {
 }
 
 int run(const ImportCommandConfig& config) {
-  CommandFiles({config.file}).write(config.import.output);
+  CommandFiles(config.files).write(config.import.output);
   require_dag_name(config.import.output, false);
   AtomicFile::check(config.import.output, config.no_clobber);
-  const File file = File::open_read(config.file);
   InputWatch inputs;
-  inputs.add(file);
+  std::deque<File> files;
+  std::vector<const FormatRow*> rows;
+  for (const std::string& path : config.files) {
+    const File& file = files.emplace_back(File::open_read(path));
+    inputs.add(file);
+    rows.push_back(&choose(config, file));
+    reject_options_of_other_formats(config, path, *rows.back());
+  }
   ImportConfig import = config.import;
-  import.source = config.file;
+  import.source = config.files.front();
   import.inputs = &inputs;
-  const FormatRow& row = choose(config, file);
+  const FormatRow& row = *rows.front();
   std::optional<File> colours;
   if (row.graph == read_hashdag && !config.no_colours) {
-    const std::string path = hashdag_colours_path(config.file);
+    const std::string path = hashdag_colours_path(import.source);
     std::error_code error;
     if (std::filesystem::is_regular_file(path, error))
       inputs.add(colours.emplace(File::open_read(path)));
   }
-  reject_options_of_other_formats(config, row);
-  const ImportReport report = inputs.guard(
-      [&] { return import_as(row, file, colours ? &*colours : nullptr, config, import); });
+  const ImportReport report = inputs.guard([&] {
+    if (row.points == nullptr)
+      return import_as(row, files.front(), colours ? &*colours : nullptr, config, import);
+    std::vector<PointInput> clouds;
+    for (size_t i = 0; i < files.size(); ++i)
+      clouds.push_back({files[i].path(), rows[i]->points(files[i]), {}});
+    return import_points(std::move(clouds), config, import);
+  });
   if (config.json)
     std::fputs(report_json(report, config.import.output).c_str(), stdout);
   else if (!config.quiet)

@@ -15,16 +15,16 @@
 namespace svdag {
 
 struct ImportCommandConfig {
-  std::string file;
+  std::vector<std::string> files;    // several: of points
   std::string format;                // a name in import_formats(); empty: from the file's content
   std::string grid;                  // --grid, vdb: name of the grid; empty: the file's only grid
   std::optional<ValueRange> iso;     // --iso, vdb: values of a float grid that are set
   std::optional<double> voxel_size;  // --voxel-size, points; nothing: import.levels
-  bool with_classes = false;         // --layers class, las: the classes of points are layers
-  std::optional<int> up;             // --up, vox: the axis that z becomes, 0 to 2; default: y
-  bool no_layers = false;            // --no-layers: labels are ignored, and materials of a .vox
-  bool no_colours = false;           // --no-colours: colours are ignored
-  bool sandbox = false;              // --sandbox: OpenVDB runs in a process that can only compute
+  LayerKind layers = LayerKind::kNone;  // --layers, points: kMaterial of classes, or kFile
+  std::optional<int> up;                // --up, vox: the axis that z becomes, 0 to 2; default: y
+  bool no_layers = false;               // --no-layers: labels are ignored, and materials of a .vox
+  bool no_colours = false;              // --no-colours: colours are ignored
+  bool sandbox = false;  // --sandbox: OpenVDB runs in a process that can only compute
   ImportConfig import;
   size_t threads = 0;       // 0: all processors
   bool no_clobber = false;  // -n: an existing output is an error

@@ -22,16 +22,19 @@ double size_of(const std::string& text) {
 }
 
 // --layers.
-bool is_class(const std::string& kind) {
-  if (kind != "class") fail_usage("--layers: \"" + kind + "\" is not class");
-  return true;
+LayerKind layers_of(const std::string& kind) {
+  if (kind != "class" && kind != "file")
+    fail_usage("--layers: unknown kind \"" + kind + "\": choose class or file");
+  return kind == "file" ? LayerKind::kFile : LayerKind::kMaterial;
 }
 
 void set_up(CLI::App* app, ImportCommandConfig* config) {
   std::string formats;
   for (const std::string& name : import_formats()) formats += (formats.empty() ? "" : ", ") + name;
   ImportConfig* import = &config->import;
-  takes_files(app->add_option("FILE", config->file, "A file of another program"), {"*"})
+  takes_files(
+      app->add_option("FILE", config->files, "A file of another program; points: or several"),
+      {"*"})
       ->required();
   takes_files(app->add_option("-o,--output", import->output, "The .svdag to write"), {".svdag"})
       ->required()
@@ -54,11 +57,10 @@ void set_up(CLI::App* app, ImportCommandConfig* config) {
                           "points: a voxel needs at least this many (default: 1)"),
           1, 1000000000)
       ->type_name("N");
-  suggests(
-      app->add_option_function<std::string>(
-          "--layers", [config](const std::string& kind) { config->with_classes = is_class(kind); },
-          "las: also keep the voxels of each class of points, as layers"),
-      {"class"})
+  suggests(app->add_option_function<std::string>(
+               "--layers", [config](const std::string& kind) { config->layers = layers_of(kind); },
+               "points: also keep the voxels of each class (las) or file, as layers"),
+           {"class", "file"})
       ->type_name("KIND");
   app->add_option("--grid", config->grid, "vdb: the grid to read (default: the only one)")
       ->type_name("NAME");

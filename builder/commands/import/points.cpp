@@ -1,54 +1,89 @@
 #include "builder/commands/import/points.h"
 
+#include <algorithm>
+#include <filesystem>
+
 #include "io/formats/points/las_classes.h"
+#include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/input_watch.h"
 
 namespace svdag {
 
-PointVoxels::PointVoxels(std::unique_ptr<PointCloud> cloud, const std::string& path,
-                         const PointChoice& choice)
-    : cloud_(std::move(cloud)), path_(path) {
+PointVoxels::PointVoxels(std::vector<PointInput> inputs, const PointChoice& choice)
+    : inputs_(std::move(inputs)) {
   if (choice.voxel_size.has_value() == (choice.levels != 0))
     fail_usage("points need a voxel size or a resolution: give -s or -r, not both");
-  cloud_->has_colours = cloud_->has_colours && choice.with_colours;
-  summary_ = summarize(*cloud_, path);
-  grid_ = grid_of_points(*cloud_, summary_, choice.voxel_size, choice.levels, path);
-  if (!choice.with_classes) return;
-  layers_.kind = LayerKind::kMaterial;
-  for (size_t number = 0; number < summary_.classes.size(); ++number) {
-    if (!summary_.classes.test(number)) continue;
-    labels_[number] = uint16_t(layers_.layers.size());
-    const std::string name = las_class_name(uint8_t(number));
-    layers_.layers.push_back({name, palette_colour(name)});
+  const bool has_colours = choice.with_colours && std::ranges::all_of(inputs_, [](const auto& i) {
+                             return i.cloud->has_colours;
+                           });
+  for (auto& [path, cloud, summary] : inputs_) {
+    cloud->has_colours = has_colours;
+    summary = summarize(*cloud, path);
+    count_ += summary.count;
+    left_out_ += summary.left_out;
+    brightest_ = std::max(brightest_, summary.brightest);
   }
+  if (count_ == 0)
+    fail_input(inputs_.front().path,
+               "has no points" + (left_out_ == 0 ? ""
+                                                 : ", except " + format_count(left_out_) +
+                                                       " without a position or withheld"));
+  grid_ = grid_of_points(inputs_, choice.voxel_size, choice.levels);
+  add_layers(choice.layers);
+}
+
+void PointVoxels::add_layers(LayerKind kind) {
+  layers_.kind = kind;
+  const auto number_of = [&](const std::string& name) {
+    const auto found = std::ranges::find(layers_.layers, name, &Layer::name);
+    const auto number = uint16_t(found - layers_.layers.begin());
+    if (found == layers_.layers.end()) layers_.layers.push_back({name, palette_colour(name)});
+    return number;
+  };
+  if (kind == LayerKind::kMaterial) {
+    std::bitset<256> classes;
+    for (const PointInput& input : inputs_) classes |= input.summary.classes;
+    for (size_t number = 0; number < classes.size(); ++number)
+      if (classes.test(number)) of_classes_[number] = number_of(las_class_name(uint8_t(number)));
+  }
+  for (const PointInput& input : inputs_)
+    of_files_.push_back(kind == LayerKind::kFile
+                            ? number_of(std::filesystem::path(input.path).filename().string())
+                            : uint16_t(0));
 }
 
 GridPlacement PointVoxels::read(const VoxelSink& sink) const {
-  const PointCells cells(*cloud_, summary_, grid_);
+  for (size_t i = 0; i < inputs_.size(); ++i) read(inputs_[i], of_files_[i], sink);
+  GridPlacement place;
+  place.grid = grid_;
+  return place;
+}
+
+void PointVoxels::read(const PointInput& input, uint16_t label, const VoxelSink& sink) const {
+  const PointSummary& summary = input.summary;
+  const PointCells cells(input, grid_);
   std::vector<Voxel> voxels;
   std::vector<uint16_t> labels;
   std::vector<Colour> colours;
-  cloud_->read([&](const PointBatch& batch) {
+  input.cloud->read([&](const PointBatch& batch) {
     voxels.clear();
     labels.clear();
     colours.clear();
     for (const Point& point : batch.points) {
       // A file that is written while it is read may hold other points than in the first pass.
-      if (glm::min(point, summary_.min) != summary_.min ||
-          glm::max(point, summary_.max) != summary_.max)
-        fail_input(path_, kChangedInput);
+      if (glm::min(point, summary.min) != summary.min ||
+          glm::max(point, summary.max) != summary.max)
+        fail_input(input.path, kChangedInput);
       voxels.push_back(cells.of(point));
     }
-    if (!layers_.empty())
-      for (const uint8_t number : batch.classes) labels.push_back(labels_[number]);
+    if (layers_.kind == LayerKind::kFile) labels.assign(voxels.size(), label);
+    if (layers_.kind == LayerKind::kMaterial)
+      for (const uint8_t number : batch.classes) labels.push_back(of_classes_[number]);
     for (const PointColour& colour : batch.colours)
-      colours.push_back(colour_of_point(colour, summary_));
+      colours.push_back(colour_of_point(colour, brightest_));
     sink(voxels, labels, colours);
   });
-  GridPlacement place;
-  place.grid = grid_;
-  return place;
 }
 
 }  // namespace svdag

@@ -11,19 +11,30 @@ namespace svdag {
 namespace {
 
 // The cells of axis `a`: of the lattice through zero, or of the grid's box.
-ExactCell cells_of(const PointCloud& cloud, const PointSummary& summary, int a, double corner,
-                   double size) {
+ExactCell cells_of(const PointInput& input, int a, double corner, double size) {
+  const PointSummary& summary = input.summary;
   const double max_point = std::max(std::abs(summary.min[a]), std::abs(summary.max[a]));
-  return {cloud.scale[a], cloud.offset[a], corner, size, max_point};
+  return {input.cloud->scale[a], input.cloud->offset[a], corner, size, max_point};
 }
 
 // The first and the last cell with points.
 struct CellRange {
-  int64_t first, last;
+  int64_t first = INT64_MAX, last = INT64_MIN;
 };
-CellRange range_of(const ExactCell& cells, const PointSummary& summary, int a) {
-  const int64_t low = cells.of(summary.min[a]), high = cells.of(summary.max[a]);
-  return {std::min(low, high), std::max(low, high)};  // a scale may be negative
+// Nothing if a cell is not exact, since `max_reach` is exceeded.
+std::optional<CellRange> range_of(std::span<const PointInput> inputs, int a, double corner,
+                                  double size, double max_reach) {
+  CellRange range;
+  for (const PointInput& input : inputs) {
+    if (input.summary.empty()) continue;
+    const ExactCell cells = cells_of(input, a, corner, size);
+    if (!(cells.reach() < max_reach)) return std::nullopt;
+    for (const double end : {input.summary.min[a], input.summary.max[a]}) {
+      range.first = std::min(range.first, cells.of(end));
+      range.last = std::max(range.last, cells.of(end));
+    }
+  }
+  return range;
 }
 
 void require_size(double size) {
@@ -32,17 +43,17 @@ void require_size(double size) {
     fail_usage("-s: " + format_double(size) + " is not a voxel size from 1e-60 to 1e60");
 }
 
-Grid lattice_of(const PointCloud& cloud, const PointSummary& summary, double size) {
+Grid lattice_of(std::span<const PointInput> inputs, double size) {
   require_size(size);
   Grid grid;
   grid.kind = Grid::Kind::kOrigin;
   grid.voxel_size = size;
   std::array<CellRange, 3> ranges;
   for (int a = 0; a < 3; ++a) {
-    const ExactCell cells = cells_of(cloud, summary, a, 0, size);
-    if (!(cells.reach() < 0x1p38))
+    const auto range = range_of(inputs, a, 0, size, 0x1p38);
+    if (!range)
       fail_usage("-s: the points are more than 2^38 voxels away from zero: choose larger voxels");
-    ranges[size_t(a)] = range_of(cells, summary, a);
+    ranges[size_t(a)] = *range;
   }
   for (grid.levels = kMinLevels; grid.levels <= kMaxLevels; ++grid.levels) {
     bool fits = true;
@@ -56,25 +67,20 @@ Grid lattice_of(const PointCloud& cloud, const PointSummary& summary, double siz
   fail_usage("-s: the points need more than 1M voxels on an axis: choose larger voxels");
 }
 
-Grid box_of_points(const PointCloud& cloud, const PointSummary& summary, int levels,
-                   const std::string& path) {
+Grid box_of_points(std::span<const PointInput> inputs, int levels) {
   Box box;
-  for (const Point& p : {summary.min, summary.max}) box.add(p * cloud.scale + cloud.offset);
-  if (box.min == box.max)
-    fail_usage("-r: all points of " + path + " are at one place: give -s instead");
-  Grid grid = divide_box(box, levels);
+  for (const auto& [path, cloud, summary] : inputs) {
+    if (summary.empty()) continue;
+    for (const Point& p : {summary.min, summary.max}) box.add(p * cloud->scale + cloud->offset);
+  }
+  if (box.min == box.max) fail_usage("-r: all points are at one place: give -s instead");
+  const Grid grid = divide_box(box, levels);
   require_size(grid.voxel_size);
   for (int a = 0; a < 3; ++a) {
-    const ExactCell cells = cells_of(cloud, summary, a, grid.origin[a], grid.voxel_size);
-    bool fits = cells.reach() < ExactCell::kMaxReach;
-    if (fits) {
-      const auto [first, last] = range_of(cells, summary, a);
-      fits = first >= 0 && last < grid.resolution();
-    }
-    if (!fits)
+    const auto range = range_of(inputs, a, grid.origin[a], grid.voxel_size, ExactCell::kMaxReach);
+    if (!range || range->first < 0 || range->last >= grid.resolution())
       fail_usage("-r: voxels of " + format_double(grid.voxel_size) +
-                 " are below the precision of the coordinates of " + path +
-                 ": choose a lower resolution");
+                 " are below the precision of the coordinates: choose a lower resolution");
   }
   return grid;
 }
@@ -99,26 +105,20 @@ PointSummary summarize(const PointCloud& cloud, const std::string& path) {
         if (!(std::abs(p[a]) <= PointCloud::kMaxMagnitude))
           fail_input(path, "has a coordinate beyond 1e60");
   });
-  if (summary.empty())
-    fail_input(path, "has no points" +
-                         (summary.left_out == 0
-                              ? std::string()
-                              : ": all " + format_count(summary.left_out) + " are left out"));
   return summary;
 }
 
-Grid grid_of_points(const PointCloud& cloud, const PointSummary& summary,
-                    const std::optional<double>& voxel_size, int levels, const std::string& path) {
-  Grid grid = voxel_size ? lattice_of(cloud, summary, *voxel_size)
-                         : box_of_points(cloud, summary, levels, path);
+Grid grid_of_points(std::span<const PointInput> inputs, const std::optional<double>& voxel_size,
+                    int levels) {
+  Grid grid = voxel_size ? lattice_of(inputs, *voxel_size) : box_of_points(inputs, levels);
   grid.selection = grid.whole();
   return grid;
 }
 
-PointCells::PointCells(const PointCloud& cloud, const PointSummary& summary, const Grid& grid)
-    : axes_{cells_of(cloud, summary, 0, grid.origin[0], grid.voxel_size),
-            cells_of(cloud, summary, 1, grid.origin[1], grid.voxel_size),
-            cells_of(cloud, summary, 2, grid.origin[2], grid.voxel_size)},
+PointCells::PointCells(const PointInput& input, const Grid& grid)
+    : axes_{cells_of(input, 0, grid.origin[0], grid.voxel_size),
+            cells_of(input, 1, grid.origin[1], grid.voxel_size),
+            cells_of(input, 2, grid.origin[2], grid.voxel_size)},
       first_(grid.k0) {}
 
 }  // namespace svdag

@@ -1,6 +1,6 @@
-// The grid of a point cloud, and the voxels of its points on it.
+// The grid of points, and the voxels of points on it.
 //
-// The first pass over a file finds the box of its points; the header's box is not trusted. The
+// The first pass over the files finds the box of their points; headers' boxes are not trusted. The
 // second maps each point to the one half-open voxel [k, k+1) that holds it, on each axis exactly.
 //
 // With a voxel size S, planes are at k * S (kind kOrigin, O = 0), whatever the points, so clouds of
@@ -8,7 +8,9 @@
 #pragma once
 
 #include <bitset>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "io/formats/points/exact_cell.h"
@@ -28,18 +30,24 @@ struct PointSummary {
   bool empty() const { return count == 0; }
 };
 
-// Error (kBadInput) if there are no points.
 PointSummary summarize(const PointCloud& cloud, const std::string& path);
 
+// A file of points, after the first pass.
+struct PointInput {
+  std::string path;
+  std::unique_ptr<PointCloud> cloud;
+  PointSummary summary;
+};
+
 // `voxel_size`: -s; nothing: `levels` instead. Error (kUsage) if the grid would be too large, or
-// its voxels too small for the precision of the coordinates.
-Grid grid_of_points(const PointCloud& cloud, const PointSummary& summary,
-                    const std::optional<double>& voxel_size, int levels, const std::string& path);
+// its voxels too small for the precision of the coordinates. At least one input has points.
+Grid grid_of_points(std::span<const PointInput> inputs, const std::optional<double>& voxel_size,
+                    int levels);
 
 // Maps the points of a cloud to voxels of its grid.
 class PointCells {
  public:
-  PointCells(const PointCloud& cloud, const PointSummary& summary, const Grid& grid);
+  PointCells(const PointInput& input, const Grid& grid);
 
   Voxel of(const Point& point) const noexcept {
     Voxel voxel;
@@ -53,10 +61,10 @@ class PointCells {
   LatticePoint first_;  // plane of the grid's corner
 };
 
-// The 8-bit colour of a channel. A file that fills only the lower byte, as some LAS files do, has
-// its colours there.
-inline Colour colour_of_point(const PointColour& colour, const PointSummary& summary) {
-  const int shift = summary.brightest < 256 ? 0 : 8;
+// The 8-bit colour of a point. Files that fill only the lower byte, as some LAS files do, have
+// their colours there. `brightest`: channel of all points.
+inline Colour colour_of_point(const PointColour& colour, uint16_t brightest) {
+  const int shift = brightest < 256 ? 0 : 8;
   return {uint8_t(colour[0] >> shift), uint8_t(colour[1] >> shift), uint8_t(colour[2] >> shift)};
 }
 

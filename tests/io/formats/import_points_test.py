@@ -155,6 +155,24 @@ class ImportPoints(unittest.TestCase):
         self.assertEqual(together, {tuple(math.floor(v / fractions.Fraction(0.3)) for v in p) for p in shifted})
         self.assertEqual(whole.kind, 2)
 
+    def test_several_files_share_a_grid(self):
+        parts, points = [], []
+        for i, name in enumerate(("a.las", "b.xyz", "c.ply", "none.las")):
+            rows = self.las_points(0 if i == 3 else 300, 1000)
+            scale, offset = ((0.01,) * 3, (7.1 * i, 0, -i)) if name.endswith("las") else ((1,) * 3, (0,) * 3)
+            if not name.endswith("las"):
+                rows = [[v / 90 + i for v in row] for row in rows]
+            write = {"las": lambda r: write_points.las(r, scale, offset), "xyz": write_points.xyz, "ply": write_points.ply}[name[-3:]]
+            (BAKERY.folder / name).write_bytes(write(rows))
+            parts.append((name, exact(rows, scale, offset)))
+            points += parts[-1][1]
+        for grid in (("-s", "0.7"), ("-r", "64")):
+            BAKERY.run("svdag", "import", *[name for name, _ in parts], "-o", "imported.svdag", "-q", "--layers", "file", *grid)
+            dag = BAKERY.dag("imported.svdag")
+            self.assertEqual(voxels_of(dag), set(cells(points, dag)))
+            self.assertEqual({layer.name.decode(): voxels_of(dag, i) for i, layer in enumerate(dag.layers)},
+                             {name: set(cells(part, dag)) for name, part in parts})
+
     def test_missing_and_withheld_points_are_left_out(self):
         points = [[0.0, 0, 0], [math.nan, 1, 1], [5, 5, 5], [1, math.nan, 0]]
         dag = self.imported(write_points.pcd(points, "binary", 4), "a.pcd", "-s", "1")
