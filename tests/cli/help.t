@@ -144,6 +144,9 @@ $ svdag help rules
 |
 |     svdag build scan.ply -o solid.svdag -r 8K --rule solid
 |
+| points is the rule of svdag import for point clouds: a voxel holds a point. The
+| lower planes of a voxel belong to it, so each point sets exactly one.
+|
 | With conservative and thin, the inside of a closed mesh stays empty. Files store
 | their rule. A judge that shares only the readers and the snap with the builder
 | recomputes every voxel; diff counts the voxels that only one of two files has
