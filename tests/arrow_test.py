@@ -64,7 +64,7 @@ ALLOWED = {
                                   "builder/reduce"],
     "builder": STREAMING + ["io", *DAG, "io/scene"] + PHASES + ["builder/cache", "builder/colours"],
     "builder/bake": BAKE + ["builder/colours"],
-    "builder/import": STREAMING + ["io", *DAG] + PHASES,
+    "builder/import": STREAMING + ["io", *DAG] + PHASES + ["builder/colours"],
     "builder/edit": STREAMING + ["io", *DAG, "builder/import", "builder/workspace"],
     "builder/farm/plan": BAKE + ["builder/bake"],
     "builder/farm/planner": BAKE + ["builder/bake", "builder/farm/plan"],

@@ -30,6 +30,7 @@ LIST = [{"scene": "city.ply", "output": "a.svdag", "resolution": "64"},
         {"scene": "none.ply", "output": "b.svdag", "resolution": "64"}]
 QUERIES = """svdag edit city.svdag -o coarse.svdag --level 5
 svdag export city.svdag -o city.npz
+svdag export layers.svdag -o layers.vox
 svdag import city.npz -o back.svdag
 svdag build city.ply -o dry.svdag -r 64 --dry-run
 svdag info city.svdag
