@@ -16,21 +16,27 @@
 #include "io/formats/dags/transform_dag.h"
 #include "io/formats/voxels/binvox.h"
 #include "io/formats/voxels/npz.h"
+#include "io/formats/voxels/ply_points.h"
 #include "io/formats/voxels/vox.h"
 #include "io/help/command_line.h"
 #include "io/units.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
 #include "streaming/file/command_files.h"
-#include "streaming/file/file_ending.h"
 #include "streaming/printable.h"
 
 namespace svdag {
 namespace {
 
 using GraphReader = std::unique_ptr<NodeGraph> (*)(const File&);
-using VoxelReader = GridPlacement (*)(const File&, const VoxelSink&, LayerTable*, bool with_colours,
-                                      int up);
+// How voxels are read; a format uses what it has.
+struct VoxelReading {
+  LayerTable* layers;  // null: --no-layers
+  bool with_colours;
+  int up;      // axis
+  int levels;  // of -r; 0: not given
+};
+using VoxelReader = GridPlacement (*)(const File&, const VoxelSink&, const VoxelReading&);
 using FileStart = std::string_view;  // the first bytes of a file
 
 bool looks_like_symvox(const File& file, FileStart) {
@@ -58,12 +64,21 @@ bool looks_like_vdb(const File&, FileStart start) {
   return start.starts_with(" BDV") || start.starts_with("NanoVDB");
 }
 
-GridPlacement read_binvox_alone(const File& file, const VoxelSink& sink, LayerTable*, bool, int) {
+bool looks_like_ply(const File&, FileStart start) {
+  return start.starts_with("ply\n") || start.starts_with("ply\r");
+}
+
+GridPlacement read_binvox_voxels(const File& file, const VoxelSink& sink, const VoxelReading&) {
   return read_binvox(file, sink);
 }
-GridPlacement read_npz_alone(const File& file, const VoxelSink& sink, LayerTable* layers,
-                             bool with_colours, int) {
-  return read_npz(file, sink, layers, with_colours);
+GridPlacement read_npz_voxels(const File& file, const VoxelSink& sink, const VoxelReading& how) {
+  return read_npz(file, sink, how.layers, how.with_colours);
+}
+GridPlacement read_vox_voxels(const File& file, const VoxelSink& sink, const VoxelReading& how) {
+  return read_vox(file, sink, how.layers, how.with_colours, how.up);
+}
+GridPlacement read_ply_voxels(const File& file, const VoxelSink& sink, const VoxelReading& how) {
+  return read_ply_points(file, sink, how.with_colours, how.levels);
 }
 
 struct FormatRow {
@@ -76,9 +91,10 @@ struct FormatRow {
 // The only table of formats; those with a magic number come first.
 constexpr FormatRow kFormats[] = {
     {"transform-dag", looks_like_transform_dag, read_transform_dag, nullptr},
-    {"npz", looks_like_npz, nullptr, read_npz_alone},
-    {"binvox", looks_like_binvox, nullptr, read_binvox_alone},
-    {"vox", looks_like_vox, nullptr, read_vox},
+    {"npz", looks_like_npz, nullptr, read_npz_voxels},
+    {"binvox", looks_like_binvox, nullptr, read_binvox_voxels},
+    {"vox", looks_like_vox, nullptr, read_vox_voxels},
+    {"ply", looks_like_ply, nullptr, read_ply_voxels},
     {"vdb", looks_like_vdb, nullptr, nullptr},
     {"hashdag", looks_like_hashdag, read_hashdag, nullptr},
     {"symvox", looks_like_symvox, read_symvox, nullptr},
@@ -97,10 +113,6 @@ const FormatRow& choose(const ImportCommandConfig& config, const File& file) {
   }
   if (!config.format.empty())
     fail_usage("--format: unknown format \"" + config.format + "\": choose one of " + names);
-  if (has_ending(config.file, ".ply"))
-    fail_input(config.file,
-               "is a mesh or points without a grid: bake a mesh with svdag build; export voxels as "
-               ".npz to import them");
   fail_input(config.file, "unknown file format: choose one with --format: " + names +
                               " (svdag build bakes scenes)");
 }
@@ -115,7 +127,7 @@ void reject_options_of_other_formats(const ImportCommandConfig& config, const Fo
   const bool is_vdb = row.graph == nullptr && row.voxels == nullptr;
   reject(!is_vdb && !config.grid.empty(), "--grid", ".vdb");
   reject(!is_vdb && config.iso, "--iso", ".vdb");
-  reject(row.voxels != read_vox && config.up, "--up", ".vox");
+  reject(row.voxels != read_vox_voxels && config.up, "--up", ".vox");
 }
 
 ImportReport import_as(const FormatRow& row, const File& file, const File* colours,
@@ -132,8 +144,9 @@ ImportReport import_as(const FormatRow& row, const File& file, const File* colou
   if (row.voxels != nullptr) {
     LayerTable layers;
     const auto read = [&](const VoxelSink& sink, const FullCubeSink&) {
-      return row.voxels(file, sink, config.no_layers ? nullptr : &layers, !config.no_colours,
-                        config.up.value_or(kDefaultVoxUp));
+      return row.voxels(file, sink,
+                        {config.no_layers ? nullptr : &layers, !config.no_colours,
+                         config.up.value_or(kDefaultVoxUp), import.levels});
     };
     return import_voxels(read, import, &executor, 0, &layers);
   }

@@ -29,7 +29,7 @@ void set_up(CLI::App* app, ImportCommandConfig* config) {
   app->add_option_function<std::string>(
          "-r,--resolution",
          [import](const std::string& s) { import->levels = parse_resolution(s); },
-         "vdb, npz, binvox, vox: voxels per axis of the grid (default: from the file, or the "
+         "vdb, npz, binvox, vox, ply: voxels per axis of the grid (default: from the file, or the "
          "smallest that holds the voxels)")
       ->type_name("N");
   app->add_option("--grid", config->grid, "vdb: the grid to read (default: the only one)")
@@ -41,7 +41,7 @@ void set_up(CLI::App* app, ImportCommandConfig* config) {
   add_vox_up(app, &config->up);
   app->add_flag("--no-layers", config->no_layers,
                 "npz, vox: no layers of their labels or palette numbers");
-  app->add_flag("--no-colours", config->no_colours, "npz, vox, hashdag: no colours of voxels");
+  app->add_flag("--no-colours", config->no_colours, "npz, vox, ply, hashdag: no colours of voxels");
   app->add_flag("--sandbox", config->sandbox,
                 "vdb: decode in a process that can only compute, for untrusted files");
   add_layout(app, &import->layout);

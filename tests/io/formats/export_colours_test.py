@@ -168,9 +168,49 @@ class ExportColours(unittest.TestCase):
             self.assertEqual("label" in back[0], name == "solid")
             self.export(name, "x.basic_dag.dag.bin", "--level", level, "--colours")
             back += [self.imported("x.basic_dag.dag.bin"), self.imported("x.npz", "--layout", "compact", "--no-layers", "-m", "8M")]
+            self.export(name, "x.ply", "--level", level)
+            back.append(self.imported("x.ply"))
             for found in back:
+                self.assertEqual(found["resolution"], 2**level)
+                self.assertLess(numpy.abs(found["corner"] - arrays["corner"]).max(), 1e-9)
                 self.assertTrue(numpy.array_equal(found["coordinates"], arrays["coordinates"]))
                 self.assertTrue(numpy.array_equal(found["colours"], colours))
+
+    def test_points_without_a_grid_are_divided(self):
+        """Text and binary of either order, and any types, are the same points."""
+        random = numpy.random.default_rng(3)
+        points = random.integers(-500, 501, (999, 3))
+        colours = random.integers(0, 256, (999, 3))
+        points[0], points[1] = -500, 500
+        voxels = numpy.minimum((points + 500) * 16 // 1000, 15)
+        expected = {}
+        for voxel, colour in zip(voxels.tolist(), colours):
+            expected.setdefault(tuple(voxel), []).append(linear(colour))
+        for order, point_type, colour_type in (("ascii", "double", "uchar"), ("binary_little_endian", "short", "uint8"),
+                                               ("binary_big_endian", "float", "ushort"), ("binary_big_endian", "int", "float")):
+            head = "\n".join(["ply", f"format {order} 1.0", "comment a scan", "element vertex 999",
+                              *(f"property {colour_type} {c}" for c in ("red", "green", "blue")),
+                              *(f"property {point_type} {a}" for a in "xyz"), "element face 0",
+                              "property list uchar int vertex_indices", "end_header", ""])
+            scale = {"ushort": 257, "float": 1 / 255}.get(colour_type, 1)
+            if order == "ascii":
+                rows = "".join(" ".join(map(str, [*c, *p])) + "\n" for c, p in zip(colours, points)).encode()
+            else:
+                kinds = {"short": "i2", "float": "f4", "int": "i4", "uint8": "u1", "ushort": "u2"}
+                sign = "<" if "little" in order else ">"
+                table = numpy.zeros(999, [("c", sign + kinds[colour_type], 3), ("p", sign + kinds[point_type], 3)])
+                table["c"], table["p"] = colours * scale, points
+                rows = table.tobytes()
+            (BAKERY.folder / "scan.ply").write_bytes(head.encode() + rows)
+            found = self.imported("scan.ply", "-r", "16")
+            self.assertEqual({tuple(v) for v in found["coordinates"].tolist()}, set(expected))
+            self.assertEqual((found["corner"].tolist(), float(found["voxel_size"])), ([-500] * 3, 62.5))
+            mean = numpy.array([numpy.mean(expected[tuple(v)], axis=0) for v in found["coordinates"].tolist()])
+            self.assertLess(numpy.abs(linear(found["colours"]) - mean).max(), 0.006)
+        self.assertIn("with -r", BAKERY.run("svdag", "import", "scan.ply", "-o", "w.svdag", code=2))
+        (BAKERY.folder / "cut.ply").write_bytes((head.encode() + rows)[:-1])
+        self.assertIn("fewer points", BAKERY.run("svdag", "import", "cut.ply", "-o", "w.svdag", "-r", "16", code=3))
+        self.assertIn("is a mesh", BAKERY.run("svdag", "import", "box.ply", "-o", "w.svdag", "-r", "16", code=3))
 
     def test_an_imported_vox_has_the_colours_of_its_palette(self):
         for name, level, arrays, _ in self.exports():
