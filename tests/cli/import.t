@@ -36,8 +36,8 @@ $ svdag import a.npz -o c.svdag --up z
 # The points of an export are neither voxels with a grid nor triangles.
 $ svdag export a.svdag -o points.ply -q
 $ svdag import points.ply -o back.svdag
-! svdag: points.ply: is a mesh or points without a grid: bake a mesh with svdag build; export voxels as .npz to import them
-? 3
+| back.svdag: ply, 328,308 voxels of 256^3, 1,272 DAG nodes, 27.7 KiB
+|   content hash 8c1e65409a337afb13ff9de673ffc78c
 $ svdag build points.ply -o back.svdag -r 64
 ! svdag: points.ply: the scene has no triangles to bake; points.ply holds only points: reconstruct a surface first, for example with CloudCompare
 ? 3
@@ -136,7 +136,7 @@ $ svdag import a.svdag -o b.svdag
 ! svdag: a.svdag: is already a .svdag of this program
 ? 2
 $ svdag import a.ply -o b.svdag
-! svdag: a.ply: is a mesh or points without a grid: bake a mesh with svdag build; export voxels as .npz to import them
+! svdag: a.ply: is a mesh: bake it with svdag build
 ? 3
 $ svdag import a.vox -o a.vox
 ! svdag: a.vox is also an input, which is never overwritten: choose another output
@@ -145,7 +145,7 @@ $ svdag import a.vox -o b.svdag -r 32
 ! svdag: -r: the voxels need a resolution of at least 64
 ? 2
 $ svdag import a.vox -o b.svdag --format foo
-! svdag: --format: unknown format "foo": choose one of transform-dag, npz, binvox, vox, vdb, hashdag, symvox
+! svdag: --format: unknown format "foo": choose one of transform-dag, npz, binvox, vox, ply, vdb, hashdag, symvox
 ? 2
 $ svdag import a.vox -o b.svdag --format npz
 ! svdag: a.vox: is not a zip file (it has no directory)

@@ -18,7 +18,7 @@ $ for line in "check r.svdag" "verify check r.svdag" "trace r.svdag" "help rende
 | exit 2
 | svdag: unknown command or topic "svdag-trace"; did you mean svdag-trace --help?
 | exit 2
-| svdag: r.ply: is a mesh or points without a grid: bake a mesh with svdag build; export voxels as .npz to import them
+| svdag: r.ply: is a mesh: bake it with svdag build
 | exit 3
 | svdag: r.svdag: is a .svdag, not a scene: svdag info shows what it contains
 | exit 3

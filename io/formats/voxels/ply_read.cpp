@@ -64,7 +64,8 @@ PointHeader read_header(const File& file) {
       uint64_t count = 0;
       words >> element >> count;
       if (words.fail()) fail("has an element without a count");
-      if (element == "face" && count > 0) fail("is a mesh: bake it with svdag build");
+      if (element == "face" && count > 0)
+        fail_input(file.path(), "is a mesh: bake it with svdag build");
       if (element == "vertex" && elements > 0) fail("has elements before its points");
       if (element == "vertex") header.points = count;
       ++elements;
