@@ -16,7 +16,7 @@
 #   fuzz-long  10^8 executions of each fuzzer (or of FUZZERS="ply run"), some nights of two cores;
 #              it can be stopped at any time and goes on where it was
 #   bench   the tables of docs/results/performance.md, and its plots
-#   bench-before     its table of this version beside another one, built in the folder BEFORE
+#   bench-before     prints a table of this version beside another one, built in the folder BEFORE
 #   bench-giants     its table of bakes at 256K and 1M
 #   bench-sort       a table of external sorts, beside those of others
 #   bench-out-of-core  its table of bakes with little memory; 30 GB of disk

@@ -138,8 +138,8 @@ inline DagView dag_view(const void* data) {
   return view;
 }
 
-// What is wrong with the `size` bytes of a file at `data`; null if they can be viewed. Finds another
-// format, a truncated file and parts that are not inside. Damage within a part shows in the
+// What is wrong with the `size` bytes of a file at `data`; null if they can be viewed. Finds
+// another format, a truncated file and parts that are not inside. Damage within a part shows in the
 // checksums (io/dag/check.h).
 inline const char* dag_defect(const void* data, uint64_t size) {
   if (size < sizeof(Header)) return "is shorter than a header";

@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-"""`make bench-before BEFORE=FOLDER`: the programs of this version beside those of another, in turns: the table "Over the version
-before" of docs/results/performance.md.
+"""`make bench-before BEFORE=FOLDER`: prints a table of the programs of this version beside those of another, in turns.
 
 Seconds and memory of a machine say little about a change, since they differ from machine to machine and from hour to hour; ratios
 of commands that take turns do. Each cell is the least of all rounds, before and now, and the median of the rounds' ratios.
@@ -16,7 +15,7 @@ import tempfile
 import time
 
 from bakes import Bakes
-from bench import OUT, PAGE, ROOT, fill, processor
+from bench import OUT, ROOT, processor
 from bench_tables import table
 
 # (work, rounds, words of the command): a name of tests/bench/bakes.py is a scene.
@@ -91,7 +90,7 @@ def main():
         if before.bakes.scene("sponza") is None:
             sys.exit("SVDAG_SCENES is not a folder with crytek_sponza.glb")
         rows = [before.row(*work) for work in WORKS]
-    fill(PAGE, {"before": f"{processor()}.\n\n" + table(["work", "wall s", "CPU s", "peak MiB"], rows)})
+    print(f"{processor()}.\n\n" + table(["work", "wall s", "CPU s", "peak MiB"], rows))
 
 
 if __name__ == "__main__":

@@ -46,7 +46,7 @@ $ svdag-verify diff 64K.svdag 256K.svdag -q && svdag-verify diff 256K.svdag 1M.s
 | nested
 $ svdag build s.ply -r 64 --cube=-70,-70,-70,140 --bounds=-5,-5,-5,30,30,30 -q -o part.svdag && svdag info part.svdag | sed -n 2p
 |   voxel size 2.1875, corner (-70, -70, -70), restricted by --bounds or --cube
-$ svdag plan s.ply -r 1K --cube=-70,-70,-70,140 --shards 2 -o plan -q && svdag run plan -q -j 1 && cmp plan/s.svdag 1K.svdag
+$ svdag plan s.ply -r 1K --cube=-70,-70,-70,140 --shards 2 -o plan -q && svdag run plan -q -j 1 && cmp plan/plan.svdag 1K.svdag
 # below 64K voxels may differ where a triangle is within the snap of a voxel plane; this scene has no such triangle
 $ for r in 2K 4K 8K 16K 32K; do svdag build s.ply -r $r --cube=-70,-70,-70,140 -q -o $r.svdag; done
 $ for p in "1K 2K" "2K 4K" "4K 8K" "8K 16K" "16K 32K" "32K 64K"; do set -- $p; svdag-verify diff $1.svdag $2.svdag -q && echo "$1 is half of $2"; done
@@ -144,7 +144,7 @@ $ python3 - <<'PY'
 $ svdag build a.ply -o a.run -s 0.3 --origin 0.1,-7,1e3 --part 1/2 -q
 $ svdag build a.ply -o b.run -s 0.3 --origin 0.1,-7,1e3 --part 2/2 -q
 $ svdag merge a.run b.run -o merged.svdag -q && cmp a.svdag merged.svdag
-$ svdag plan a.ply -o plan -s 0.3 --origin 0.1,-7,1e3 --shards 2 -q && svdag run plan -q && cmp a.svdag plan/a.svdag
+$ svdag plan a.ply -o plan -s 0.3 --origin 0.1,-7,1e3 --shards 2 -q && svdag run plan -q && cmp a.svdag plan/plan.svdag
 $ svdag build a.ply -o c.run -s 0.3 --part 2/2 -q
 $ svdag merge a.run c.run -o merged.svdag
 ! svdag: a.run and c.run are from different bakes: --origin differs
@@ -203,7 +203,7 @@ $ svdag-verify mesh z.svdag z.off | grep '^grid\|^missing\|^extra\|^ok'
 | ok: every voxel agrees with the scene
 $ svdag-verify check z.svdag | tail -1
 | ok: sound, in canonical order and minimal
-$ svdag plan z.off -r 64 --transform=1,0,0,1,0,1,0,0,0,0,1,0 --up z --scale 3 --shards 2 -o plan -q && svdag run plan -q -j 1 && cmp plan/z.svdag z.svdag
+$ svdag plan z.off -r 64 --transform=1,0,0,1,0,1,0,0,0,0,1,0 --up z --scale 3 --shards 2 -o plan -q && svdag run plan -q -j 1 && cmp plan/plan.svdag z.svdag
 $ for up in x -x y -y z -z; do svdag build z.off -r 8 --up=$up -q -o up.svdag && svdag-verify mesh up.svdag z.off -q && echo "up $up"; done
 | up x
 | up -x

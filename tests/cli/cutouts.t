@@ -13,7 +13,7 @@ $ svdag-verify mesh a.svdag cut.glb | tail -4
 | ok: every voxel agrees with the scene
 $ svdag build cut.glb -o b.svdag -r 256 -m 4M -v | grep -c scratch: && cmp a.svdag b.svdag
 | 1
-$ svdag plan cut.glb -o plan -r 256 --shards 2 -q && svdag run plan -q && cmp a.svdag plan/cut.svdag
+$ svdag plan cut.glb -o plan -r 256 --shards 2 -q && svdag run plan -q && cmp a.svdag plan/plan.svdag
 $ for i in 1 2; do svdag build cut.glb -o $i.run -r 256 -q --part $i/2; done
 $ svdag merge 1.run 2.run -o b.svdag -q && cmp a.svdag b.svdag
 $ for i in 1 2; do svdag build cut.glb -o b.svdag -r 256 -q --cache cells && cmp a.svdag b.svdag; done
@@ -60,7 +60,7 @@ $ cmp a.svdag mask.svdag; cmp -s whole.svdag mask.svdag || echo differ
 | differ
 $ svdag-verify mesh a.svdag cut.glb --cutout smooth --cutout 'wh*' | tail -1
 | ok: every voxel agrees with the scene
-$ svdag plan cut.glb -o plan -r 128 --shards 2 -q --cutout whole && svdag run plan -q && cmp a.svdag plan/cut.svdag
+$ svdag plan cut.glb -o plan -r 128 --shards 2 -q --cutout whole && svdag run plan -q && cmp a.svdag plan/plan.svdag
 $ python3 -B $TESTS/cut_scene.py 40 OPAQUE && svdag build cut.glb -o b.svdag -r 128 -q --cutout whole && cmp a.svdag b.svdag
 # Without the coordinates of its texture a mesh has none, and is whole.
 $ python3 -B $TESTS/cut_scene.py 40 MASK TEXCOORD_1 && svdag build cut.glb -o b.svdag -r 128 -q && cmp whole.svdag b.svdag
@@ -83,7 +83,7 @@ $ svdag build cut.obj -o a.svdag -r 128 | tail -1
 |   100 triangles are cut out by the alpha of their material
 $ cmp a.svdag glb.svdag && svdag-verify mesh a.svdag cut.obj | tail -1
 | ok: every voxel agrees with the scene
-$ svdag plan cut.obj -o plan -r 128 --shards 2 -q && svdag run plan -q && cmp a.svdag plan/cut.svdag
+$ svdag plan cut.obj -o plan -r 128 --shards 2 -q && svdag run plan -q && cmp a.svdag plan/plan.svdag
 $ svdag build cut.obj -o b.svdag -r 128 -q -m 4M && cmp a.svdag b.svdag
 $ python3 -B $TESTS/cut_scene.py 40 && svdag build cut.obj -o b.svdag -r 128 -q --cutout whole && cmp a.svdag b.svdag
 $ svdag build cut.obj -o noisy.png -r 16

@@ -87,7 +87,7 @@ $ sha256sum *
 | 631949b1787d2d719f34bb5c1fc6c6b56b68b10bdfd0dcd850bcfa34cdd7d851  r.octree
 | 9f629109abb4e790e598c4283988572b01f16a506db99ff49bdeb53d1f2f2dc7  r.octreedata
 | a57981d398613b2964732e9385d70330cc72aff92428e4f841900d9326b4c4c2  r.octreenodes
-| 352d1c21b7c09f1ef995868a908ade38f115442d9fa88c5e9b7bae1fafda2f83  r.ply2
+| 4e1292e5a9242d47af55730a69f44107ec7a00b94df0a1e2d5486fa4a1e00433  r.ply2
 | 01f61588b16629acb19da1feda9f2f5bba0dbcb5a36dfdfa44aeea082d043d03  r.svo
 | df6ee19e690a7bd55dd1f850ecb44e8518afb7e6f1cd242ee758a33367fa1eaf  r.symvox
 | 533c7476e4e496eb9d5352802747bc5b6b811e9b0b20c69a0d1ca9566708d99a  r.vox
@@ -358,7 +358,7 @@ $ svdag export painted.svdag -o a.vox --json --level 5
 |     "largest_error": 8.660254037844387
 |   }
 | }
-$ svdag export painted.svdag -o a.ply && head -c 300 a.ply | grep -a property
+$ svdag export painted.svdag -o a.ply && head -c 400 a.ply | grep -a property
 | a.ply: ply, 75,650 voxels of level 7 (128^3)
 | property double x
 | property double y

@@ -44,7 +44,7 @@ $ for time in 0 2.625 10.5; do
 | 10.5: the same
 $ svdag build moving.gltf -o b.svdag -r 128 $cube --frames 0:10.5:2.625 -m 3M -v | grep -c scratch: && cmp a.svdag b.svdag
 | 1
-$ svdag plan moving.gltf -o plan -r 128 $cube --frames 0:10.5:2.625 --shards 2 -q && svdag run plan -q && cmp a.svdag plan/moving.svdag
+$ svdag plan moving.gltf -o plan -r 128 $cube --frames 0:10.5:2.625 --shards 2 -q && svdag run plan -q && cmp a.svdag plan/plan.svdag
 $ for i in 1 2; do svdag build moving.gltf -o $i.run -r 128 $cube --frames 0:10.5:2.625 -q --part $i/2; done
 $ svdag info 1.run | grep layers
 |   5 layers, one for each frame, without their union

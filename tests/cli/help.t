@@ -240,6 +240,8 @@ $ svdag help
 | Topics:
 |   grid         how the voxel grid is placed
 |   rules        when a voxel is set
+|   layers       materials, objects or files in one DAG
+|   colours      a colour for every voxel
 |   memory       scenes and DAGs that do not fit
 |   farm         one bake as many jobs
 |   formats      what is read and written

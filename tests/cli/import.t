@@ -35,6 +35,9 @@ $ svdag import a.npz -o c.svdag --up z
 ? 2
 # The points of an export are not triangles.
 $ svdag export a.svdag -o points.ply -q
+$ svdag import points.ply -o back.svdag
+| back.svdag: ply, 328,308 voxels of 256^3, 1,272 DAG nodes, 27.7 KiB
+|   content hash 8c1e65409a337afb13ff9de673ffc78c
 $ svdag build points.ply -o back.svdag -r 64
 ! svdag: points.ply: the scene has no triangles to bake; points.ply holds only points: reconstruct a surface first, for example with CloudCompare
 ? 3

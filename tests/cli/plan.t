@@ -48,6 +48,12 @@ $ svdag run p -q 2>&1 | sed 's/ (.*//'
 |* svdag: colours failed: */cut.glb: was changed after it was planned: restore it, or create the plan again
 $ mv whole.glb cut.glb
 $ svdag run p -q && cmp one.svdag p/p.svdag
+$ printf 'newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n' > two.mtl  # the pass reads what the shards read
+$ printf 'mtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\nusemtl blue\nf 1 3 2\n' > two.obj
+$ for options in '--exclude blue' '--include blue --allow-empty --include sky' '--up z --scale 2'; do
+>   svdag build two.obj -r 64 --colours $options -o two.svdag -q && rm -rf t
+>   svdag plan two.obj -r 64 --shards 2 --colours $options -o t -q && svdag run t -q && cmp two.svdag t/t.svdag
+> done
 
 $ svdag plan cut.glb -r 128 --shards 2 --colour-level 5 -o q
 ! svdag: --colour-level requires --colours; see svdag plan --help

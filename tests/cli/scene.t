@@ -55,7 +55,7 @@ $ svdag info --exclude 'sky*' sky1.ply hall.ply | head -n 1
 $ svdag plan --exclude 'sky*' hall.ply --exclude 'props*' props.ply sky1.ply -r 64 --shards 1 -o p -q
 $ svdag build hall.ply -r 64 -o hall.svdag -q
 $ svdag run p -q -j 1
-$ cmp p/hall.svdag hall.svdag
+$ cmp p/p.svdag hall.svdag
 
 ## scene_no_output
 $ svdag-scene city

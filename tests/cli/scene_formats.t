@@ -171,7 +171,7 @@ $ svdag info t.obj.gz | head -2
 $ svdag-verify mesh t.svdag t.off.gz | tail -1
 | ok: every voxel agrees with the scene
 $ svdag plan t.stl.gz -r 64 -o plan --shards 2 -q
-$ svdag run plan -q && cmp t.svdag plan/t.svdag
+$ svdag run plan -q && cmp t.svdag plan/plan.svdag
 $ head -c 20 t.obj.gz > short.obj.gz
 $ svdag build short.obj.gz -o b.svdag -r 64
 ! svdag: short.obj.gz: ends too early (at byte 20)

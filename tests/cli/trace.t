@@ -93,23 +93,26 @@ $ trace() { svdag-trace --preset inside --size 64x36 --samples 2 --rounds 1 "$@"
 $ layers() { trace --json "$@" | sed 's/.*"layers"://; s/}$//' | tr '{' '\n' | grep -v '"hit":0'; }
 $ layers plain.svdag
 | [
-| "name":"blue cloth","hit":19},
-| "name":"floor","hit":166},
-| "name":"plaster","hit":838},
-| "name":"red cloth","hit":279},
-| "name":"stone","hit":1002},
+| "name":"blue cloth","hit":71},
+| "name":"floor","hit":492},
+| "name":"leaves","hit":75},
+| "name":"plaster","hit":83},
+| "name":"red cloth","hit":288},
+| "name":"roof","hit":11},
+| "name":"stone","hit":1072},
+| "name":"vase","hit":27}]
 $ layers compact.svdag | md5sum | cut -c1-8
-| 21e5edc8
+| 53784431
 $ layers plain.svdag | md5sum | cut -c1-8
-| 21e5edc8
+| 53784431
 $ svdag convert plain.svdag -o cloth.svdag -q --layer "blue cloth"
 $ for file in "plain.svdag --layer" "compact.svdag --layer"; do trace $file "blue cloth" | grep -E "primary|results" | cut -c1-34; done
-| primary          2304          356
-| results  95e8f3240e457ccf
-| primary          2304          356
-| results  95e8f3240e457ccf
+| primary          2304          236
+| results  59c3c7ed63c79b39
+| primary          2304          236
+| results  59c3c7ed63c79b39
 $ trace cloth.svdag | grep primary | cut -c1-34
-| primary          2304          356
+| primary          2304          236
 $ trace plain.svdag --layer clot
 ! svdag-trace: --layer: the file has no layer "clot" (svdag info --layers lists them)
 ? 2

@@ -33,8 +33,8 @@ $ svdag-verify mesh r.ply r.svdag
 $ svdag query r.svdag 1 -2 3
 ! svdag: points are read from standard input: echo 1 -2 3 | svdag query r.svdag
 ? 2
-$ svdag help layers
-! svdag: "layers" is an option: svdag build --layers, svdag batch --layers, svdag plan --layers, svdag info --layers; see the help of these commands
+$ svdag help shards
+! svdag: "shards" is an option: svdag plan --shards; see the help of these commands
 ? 2
 $ svdag version
 ! svdag: unknown command "version" of svdag; did you mean svdag --version?

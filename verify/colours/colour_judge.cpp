@@ -166,8 +166,8 @@ class ColourJudge {
 
   void judge(uint64_t code, const CubeEstimate& estimate) {
     const LatticePoint cube = cell_of_code(code);
-    const uint32_t stored = svdag_colour(colours_.view(), level_, uint32_t(cube.x),
-                                         uint32_t(cube.y), uint32_t(cube.z));
+    const uint32_t stored =
+        svdag_colour(colours_.view(), level_, uint32_t(cube.x), uint32_t(cube.y), uint32_t(cube.z));
     if (!estimate.is_touched()) {
       ++(stored == kNoColour ? out_.without_colour : out_.without_triangle);
       return;

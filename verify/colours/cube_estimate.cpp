@@ -261,7 +261,8 @@ void CubeEstimate::note_place(const JudgedTexture* texture, const TexturePolygon
 bool CubeEstimate::is_at_seam() const {
   constexpr double kGap = 1;  // texel
   const auto& [texture, box, sides, is_mixed, count] = places_;
-  return is_mixed || box.high.u - box.low.u > sides.u + kGap || box.high.v - box.low.v > sides.v + kGap;
+  return is_mixed || box.high.u - box.low.u > sides.u + kGap ||
+         box.high.v - box.low.v > sides.v + kGap;
 }
 
 double CubeEstimate::tolerance(size_t channel) const {

@@ -26,11 +26,10 @@ void add_wrong_colours(Verdict* verdict, const ColourComparison& c) {
   for (size_t i = 0; i < c.worst.size(); ++i) {
     const WrongColour& w = c.worst[i];
     const std::string key = "worst/" + std::to_string(i) + "/";
-    verdict->add(
-        key + "cube", "  wrong",
-        shown(std::array{w.cube.x, w.cube.y, w.cube.z},
-              "cube (" + std::to_string(w.cube.x) + ", " + std::to_string(w.cube.y) + ", " +
-                  std::to_string(w.cube.z) + ")"));
+    verdict->add(key + "cube", "  wrong",
+                 shown(std::array{w.cube.x, w.cube.y, w.cube.z},
+                       "cube (" + std::to_string(w.cube.x) + ", " + std::to_string(w.cube.y) +
+                           ", " + std::to_string(w.cube.z) + ")"));
     verdict->also(key + "stored", colour_or_none(w.stored));
     verdict->also(key + "expected", shown(colour_text(expected_colour(w)),
                                           "the scene has " + colour_text(expected_colour(w))));

@@ -23,11 +23,11 @@ void check_run_files(const MergeRunsConfig& config) {
 void print_summary(const MergeCommand& config, const MergeRunsReport& r) {
   uint64_t nodes = 0;
   for (const uint64_t n : r.nodes) nodes += n;
-  std::printf("%s: %s^3, %s (%s), %s, %s, %s, content %s\n",
-              printable(config.merge.output).c_str(),
-              format_resolution(uint64_t(r.grid.resolution())).c_str(), 
-              format_count(config.merge.runs.size(), "run").c_str(), format_bytes(r.runs_bytes).c_str(),
-              format_count(r.voxels, "voxel").c_str(), format_count(nodes, "node").c_str(), format_bytes(r.file_bytes).c_str(),
+  std::printf("%s: %s^3, %s (%s), %s, %s, %s, content %s\n", printable(config.merge.output).c_str(),
+              format_resolution(uint64_t(r.grid.resolution())).c_str(),
+              format_count(config.merge.runs.size(), "run").c_str(),
+              format_bytes(r.runs_bytes).c_str(), format_count(r.voxels, "voxel").c_str(),
+              format_count(nodes, "node").c_str(), format_bytes(r.file_bytes).c_str(),
               r.content_hash.c_str());
   if (!config.output.verbose) return;
   std::printf("  seconds: check %.2f, merge %.2f, write %.2f\n", r.seconds.check, r.seconds.merge,

@@ -76,8 +76,7 @@ int do_step(const Plan& plan, const PlanStep& step, const StepConfig& config, si
     return 128 + interrupted.signal;
   }
   progress.finish();
-  if (output.json)
-    std::fputs(step_json(step, report.receipt, report.done_before).c_str(), stdout);
+  if (output.json) std::fputs(step_json(step, report.receipt, report.done_before).c_str(), stdout);
   if (output.quiet || output.json) return int(ExitCode::kOk);
   std::printf("%s: %s, %s, content %s\n", printable(report.output).c_str(),
               report.removed           ? "already merged"

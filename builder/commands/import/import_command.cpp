@@ -153,13 +153,15 @@ void reject_options_of_other_formats(const ImportCommandConfig& config, const st
 ImportReport import_points(std::vector<PointInput> inputs, const ImportCommandConfig& config,
                            ImportConfig import) {
   ParallelExecutor executor(threads_or_all(config.threads));
-  import.rule = Rule::kPoints;
   const PointVoxels voxels(std::move(inputs),
                            {config.voxel_size, import.levels, !config.no_colours, config.layers});
+  import.rule = voxels.rule();
   const auto read = [&](const VoxelSink& sink, const FullCubeSink&) { return voxels.read(sink); };
   ImportReport report = import_voxels(read, import, &executor, voxels.count(), &voxels.layers());
-  report.points = voxels.count();
-  report.points_left_out = voxels.left_out();
+  if (import.rule == Rule::kPoints) {
+    report.points = voxels.count();
+    report.points_left_out = voxels.left_out();
+  }
   return report;
 }
 

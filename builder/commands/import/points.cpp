@@ -12,7 +12,10 @@ namespace svdag {
 
 PointVoxels::PointVoxels(std::vector<PointInput> inputs, const PointChoice& choice)
     : inputs_(std::move(inputs)) {
-  if (choice.voxel_size.has_value() == (choice.levels != 0))
+  const bool has_size = choice.voxel_size.has_value(), has_levels = choice.levels != 0;
+  const std::optional<Grid> own = inputs_.size() == 1 ? inputs_[0].cloud->grid : std::nullopt;
+  const bool is_own = own && !has_size && !has_levels;
+  if (has_size == has_levels && !is_own)
     fail_usage("points need a voxel size or a resolution: give -s or -r, not both");
   const bool has_colours = choice.with_colours && std::ranges::all_of(inputs_, [](const auto& i) {
                              return i.cloud->has_colours;
@@ -24,12 +27,17 @@ PointVoxels::PointVoxels(std::vector<PointInput> inputs, const PointChoice& choi
     left_out_ += summary.left_out;
     brightest_ = std::max(brightest_, summary.brightest);
   }
-  if (count_ == 0)
+  if (count_ == 0 && !is_own)
     fail_input(inputs_.front().path,
                "has no points" + (left_out_ == 0 ? ""
                                                  : ", except " + format_count(left_out_) +
                                                        " without a position or withheld"));
-  grid_ = grid_of_points(inputs_, choice.voxel_size, choice.levels);
+  grid_ = is_own ? *own : grid_of_points(inputs_, choice.voxel_size, choice.levels);
+  if (is_own) {
+    rule_ = Rule::kConservative;  // the file does not record it
+    if (!holds(grid_, inputs_))
+      fail_input(inputs_[0].path, "has points outside of the grid of its header");
+  }
   add_layers(choice.layers);
 }
 

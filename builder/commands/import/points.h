@@ -13,7 +13,7 @@
 namespace svdag {
 
 struct PointChoice {
-  std::optional<double> voxel_size;  // -s; nothing: `levels`
+  std::optional<double> voxel_size;  // -s; nothing: `levels`, or the grid of the file
   int levels = 0;                    // -r
   bool with_colours = true;
   LayerKind layers = LayerKind::kNone;  // --layers: kMaterial of the classes, kFile of the files
@@ -25,6 +25,8 @@ class PointVoxels {
   // all files have some. Errors: kUsage, kBadInput.
   PointVoxels(std::vector<PointInput> inputs, const PointChoice& choice);
 
+  // kPoints, unless the points are the centres of exported voxels, on the grid of these.
+  Rule rule() const { return rule_; }
   uint64_t count() const { return count_; }
   uint64_t left_out() const { return left_out_; }
   // The classes that occur, or the files.
@@ -39,6 +41,7 @@ class PointVoxels {
   std::vector<PointInput> inputs_;
   uint64_t count_ = 0, left_out_ = 0;
   uint16_t brightest_ = 0;  // channel
+  Rule rule_ = Rule::kPoints;
   Grid grid_;
   LayerTable layers_;
   std::vector<uint16_t> of_files_;          // layer of each file

@@ -89,7 +89,8 @@ void info_plan(const InfoCommand& config) {
   size_t done = 0;
   const bool finished = is_finished(plan, false);
   for (const PlanStep& step : plan.steps)
-    done += finished || output_state(plan, step, plan.path(step.output), false) == OutputState::kValid;
+    done +=
+        finished || output_state(plan, step, plan.path(step.output), false) == OutputState::kValid;
   for (const PlanInput& input : plan.inputs)
     std::printf("  input %s, %s, content %s\n", printable(input.path).c_str(),
                 format_bytes(input.bytes).c_str(), input.hash.c_str());

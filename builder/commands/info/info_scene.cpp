@@ -42,7 +42,7 @@ double opaque_share(const CutOut& cut, const TextureCorners& corners) noexcept {
       for (const double middle : {1.0 / 3, 2.0 / 3}) {
         const double b = (i + middle) / kDivisions, c = (j + middle) / kDivisions;
         if (b + c >= 1) continue;
-        const auto at = [&](double TexturePoint::* axis) {
+        const auto at = [&](double TexturePoint::*axis) {
           return corners[0].*axis * (1 - b - c) + corners[1].*axis * b + corners[2].*axis * c;
         };
         opaque += alpha_at(cut, {at(&TexturePoint::u), at(&TexturePoint::v)}) >= cut.threshold;
@@ -85,8 +85,7 @@ std::vector<MeshPart> list_parts(const Scene& scene, PartsMemory* memory) {
       const double of_triangle = glm::length(glm::cross(b - a, c - a)) / 2;
       bounds.add(batch.triangles[i]);
       area += of_triangle;
-      opaque +=
-          cut == nullptr ? of_triangle : of_triangle * opaque_share(*cut, batch.texture[i]);
+      opaque += cut == nullptr ? of_triangle : of_triangle * opaque_share(*cut, batch.texture[i]);
     }
     const auto add = [&](PartKind kind, std::string_view name) {
       const auto [at, added] = index_of.emplace(std::pair(kind, name), parts.size());
@@ -217,9 +216,9 @@ void print_text(const InfoCommand& config, const Box& box, const SceneCounts& co
   print_scene_notes(counts);
   for (size_t i = 0; i < animations.size(); ++i) {
     const auto& [name, seconds, nodes, weights] = animations[i];
-    std::printf("  animation #%zu%s%s: %.6g s, moves %s, morphs %s\n", i,
-                name.empty() ? "" : " ", printable(name).c_str(), seconds,
-                format_count(nodes, "node").c_str(), format_count(weights).c_str());
+    std::printf("  animation #%zu%s%s: %.6g s, moves %s, morphs %s\n", i, name.empty() ? "" : " ",
+                printable(name).c_str(), seconds, format_count(nodes, "node").c_str(),
+                format_count(weights).c_str());
   }
   if (config.parts) std::printf("\n  %14s  part\n", "triangles");
   for (const MeshPart& part : parts) {

@@ -180,8 +180,7 @@ class Runner {
   size_t threads_alone(size_t i) const {
     const PlanStep& step = plan_.steps[i];
     const uint64_t above_base = std::max(step.predicted.budget, kBaseBudget) - kBaseBudget;
-    return std::max(step.threads,
-                    std::min(config_.processes, size_t(above_base / kThreadBudget)));
+    return std::max(step.threads, std::min(config_.processes, size_t(above_base / kThreadBudget)));
   }
 
   // Modification time of the step's receipt; Time::min() if it does not exist.

@@ -17,8 +17,8 @@ struct RunLocalConfig {
   std::string scratch;   // --scratch of the steps
   bool table = false;    // draws a live table on stderr; else prints a line per step on stdout
   bool quiet = false;
-  bool keep = false;     // --keep of the last step
-  bool json = false;     // prints run_json() at the end
+  bool keep = false;  // --keep of the last step
+  bool json = false;  // prints run_json() at the end
 };
 
 // Returns when every step is done; valid outputs are kept. Throws Error with the exit code of the

@@ -100,7 +100,13 @@ Receipt colour_merged(const Plan& plan, const PlanStep& step, const StepConfig& 
   colours.unfinished = unfinished_of(config);
   if (config.checkpoint != 0) colours.checkpoint = config.checkpoint;
   const ColourReport report = colour_file(colours, executor, progress);
-  return {content_hash_of(output, false), report.header.file_bytes, 0, 0, 0, report.scratch, report.resumed};
+  return {content_hash_of(output, false),
+          report.header.file_bytes,
+          0,
+          0,
+          0,
+          report.scratch,
+          report.resumed};
 }
 
 // A file that cannot be removed is left behind.

@@ -28,7 +28,6 @@ constexpr double kColourInFile = 0.5;  // bytes of a cube's colours at the defau
 
 constexpr uint64_t kMiB = uint64_t(1) << 20;
 
-
 uint64_t budget_for(double need, const StepLimits& limits) {
   const uint64_t min = kBaseBudget + limits.threads * kThreadBudget;
   const uint64_t max = limits.memory != 0 ? std::max(limits.memory, min) : UINT64_MAX;

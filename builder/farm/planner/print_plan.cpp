@@ -69,8 +69,7 @@ void print_plan(const Plan& plan, bool steps) {
               plan.folder.empty() ? "" : (plan.folder + ": ").c_str(),
               format_resolution(uint64_t(plan.grid.resolution())).c_str(),
               format_count(plan.counts.scene.triangles, "triangle").c_str(),
-              format_count(plan.bins.size(), "bin").c_str(),
-              plan.one_bake_cpu);
+              format_count(plan.bins.size(), "bin").c_str(), plan.one_bake_cpu);
   print_totals(shards.steps == 1 ? "shard" : "shards", shards);
   print_totals(merges.steps == 1 ? "merge" : "merges", merges);
   if (plan.colours) print_totals("colour pass", colours);

@@ -1,6 +1,9 @@
-// The vertices of a PLY file, as points. Other elements are skipped.
+// The vertices of a PLY file, as points. Other elements are skipped. The comment of
+// io/formats/voxels/ply_points.h gives the grid of exported voxels.
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstdio>
 #include <optional>
 #include <string>
 
@@ -15,6 +18,26 @@ namespace {
 uint16_t channel_of(double value, PlyType type) {
   if (type == PlyType::kUint16) return value > 0 ? uint16_t(std::min(value, 65535.0)) : 0;
   return uint16_t(257 * colour_code(share_of_range(value, type)));
+}
+
+// The grid of a comment; nothing if there is none, or an impossible one.
+std::optional<Grid> grid_of_comment(const File& file) {
+  ByteStream stream(file);
+  for (auto line = stream.line(); line && *line != "end_header"; line = stream.line()) {
+    const std::string text(line->substr(0, 256));
+    Grid grid;
+    Point& corner = grid.origin;
+    unsigned long long resolution = 0;
+    if (std::sscanf(text.c_str(),
+                    "comment centres of voxels of side %lf, corner %lf %lf %lf, resolution %llu",
+                    &grid.voxel_size, &corner.x, &corner.y, &corner.z, &resolution) != 5 ||
+        !std::has_single_bit(resolution))
+      continue;
+    grid.levels = std::countr_zero(resolution);
+    grid.selection = grid.levels <= kMaxLevels ? grid.whole() : VoxelBox();
+    if (grid.is_valid()) return grid;
+  }
+  return std::nullopt;
 }
 
 class PlyCloud final : public PointCloud {
@@ -37,6 +60,7 @@ class PlyCloud final : public PointCloud {
         fail_input(file.path(), "has vertices without a coordinate \"" + name + "\"");
       roles_[*index] = size_t(a);
     }
+    grid = grid_of_comment(file);
     if (const auto colours = colours_of(vertex)) {
       for (size_t c = 0; c < 3; ++c) roles_[(*colours)[c]] = 3 + c;
       has_colours = true;
@@ -91,7 +115,10 @@ class PlyCloud final : public PointCloud {
 }  // namespace
 
 bool has_only_points(const File& ply) {
-  return is_point_cloud(ply);
+  ByteStream stream(ply);
+  return std::ranges::none_of(read_ply_header(&stream).elements, [](const PlyElement& element) {
+    return (element.name == "face" || element.name == "tristrips") && element.count > 0;
+  });
 }
 
 std::unique_ptr<PointCloud> open_ply_points(const File& file) {

@@ -9,10 +9,11 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
-#include "io/triangle.h"
+#include "io/grid.h"
 
 namespace svdag {
 
@@ -42,6 +43,7 @@ class PointCloud {
   virtual uint64_t read(const PointSink& sink) const = 0;
 
   Point scale{1}, offset{0};
+  std::optional<Grid> grid;  // of voxels whose centres the points are, if the file has it
   bool has_colours = false;
 };
 

@@ -16,7 +16,8 @@ std::unique_ptr<PointCloud> open_las(const File& file);
 std::unique_ptr<PointCloud> open_xyz(const File& file);
 // The Point Cloud Library's PCD 0.7, ascii and binary.
 std::unique_ptr<PointCloud> open_pcd(const File& file);
-// The vertices of a PLY file. has_only_points(): whether it has some, and no faces.
+// The vertices of a PLY file; those of an exported one have a grid. has_only_points(): whether it
+// has no faces.
 bool has_only_points(const File& ply);
 std::unique_ptr<PointCloud> open_ply_points(const File& file);
 

@@ -76,12 +76,9 @@ Grid box_of_points(std::span<const PointInput> inputs, int levels) {
   if (box.min == box.max) fail_usage("-r: all points are at one place: give -s instead");
   const Grid grid = divide_box(box, levels);
   require_size(grid.voxel_size);
-  for (int a = 0; a < 3; ++a) {
-    const auto range = range_of(inputs, a, grid.origin[a], grid.voxel_size, ExactCell::kMaxReach);
-    if (!range || range->first < 0 || range->last >= grid.resolution())
-      fail_usage("-r: voxels of " + format_double(grid.voxel_size) +
-                 " are below the precision of the coordinates: choose a lower resolution");
-  }
+  if (!holds(grid, inputs))
+    fail_usage("-r: voxels of " + format_double(grid.voxel_size) +
+               " are below the precision of the coordinates: choose a lower resolution");
   return grid;
 }
 
@@ -106,6 +103,14 @@ PointSummary summarize(const PointCloud& cloud, const std::string& path) {
           fail_input(path, "has a coordinate beyond 1e60");
   });
   return summary;
+}
+
+bool holds(const Grid& grid, std::span<const PointInput> inputs) {
+  for (int a = 0; a < 3; ++a) {
+    const auto range = range_of(inputs, a, grid.origin[a], grid.voxel_size, ExactCell::kMaxReach);
+    if (!range || range->first < 0 || range->last >= grid.resolution()) return false;
+  }
+  return true;
 }
 
 Grid grid_of_points(std::span<const PointInput> inputs, const std::optional<double>& voxel_size,

@@ -44,6 +44,9 @@ struct PointInput {
 Grid grid_of_points(std::span<const PointInput> inputs, const std::optional<double>& voxel_size,
                     int levels);
 
+// Whether all points are in voxels of the grid, as far as doubles can tell.
+bool holds(const Grid& grid, std::span<const PointInput> inputs);
+
 // Maps the points of a cloud to voxels of its grid.
 class PointCells {
  public:

@@ -9,13 +9,11 @@
 namespace svdag {
 namespace {
 
-constexpr uint64_t kHeadBytes = 2048;      // of the file's head and the JSON's chunk
+constexpr uint64_t kHeadBytes = 2048;  // of the file's head and the JSON's chunk
 constexpr uint64_t kPlaceBytes = 12, kColourBytes = 8;
 
 std::array<uint16_t, 4> linear16(const Colour& colour) {
-  const auto light = [](uint8_t code) {
-    return uint16_t(light_of(code) * UINT16_MAX + 0.5);
-  };
+  const auto light = [](uint8_t code) { return uint16_t(light_of(code) * UINT16_MAX + 0.5); };
   return {light(colour.r), light(colour.g), light(colour.b), UINT16_MAX};
 }
 
@@ -46,9 +44,8 @@ std::string GlbHead::json() const {
   const Point corner = grid.corner();
   std::string text = R"({"asset":{"version":"2.0","generator":"svdag"},"scene":0,"scenes":[{)";
   if (indices == 0) return text + "}]}";
-  text += R"("nodes":[0]}],"nodes":[{"mesh":0,"scale":)" +
-          numbers(std::array{size, size, size}) + R"(,"translation":)" +
-          numbers(std::array{corner.x, corner.y, corner.z}) +
+  text += R"("nodes":[0]}],"nodes":[{"mesh":0,"scale":)" + numbers(std::array{size, size, size}) +
+          R"(,"translation":)" + numbers(std::array{corner.x, corner.y, corner.z}) +
           R"(}],"meshes":[{"primitives":[{"attributes":{"POSITION":0)" +
           (has_colours ? R"(,"COLOR_0":1)" : "") + R"(},"indices":)" + (has_colours ? "2" : "1") +
           R"(,"material":0}]}],"materials":[{"pbrMetallicRoughness":{"metallicFactor":0}}],)" +
@@ -56,7 +53,8 @@ std::string GlbHead::json() const {
           R"(,"min":)" + numbers(low) + R"(,"max":)" + numbers(high) + "}";
   if (has_colours)
     text += R"(,{"bufferView":0,"byteOffset":12,"componentType":5123,"normalized":true,)"
-            R"("type":"VEC4","count":)" + n + "}";
+            R"("type":"VEC4","count":)" +
+            n + "}";
   text += R"(,{"bufferView":1,"componentType":5125,"type":"SCALAR","count":)" + m +
           R"(}],"bufferViews":[{"buffer":0,"byteLength":)" + of_vertices + R"(,"byteStride":)" +
           stride + R"(,"target":34962},{"buffer":0,"byteOffset":)" + of_vertices +

@@ -13,8 +13,7 @@ std::string header_of(const VoxelWindow& window, const SurfaceCounts& counts, bo
          format_double(window.grid.voxel_size) + fill + "\nelement vertex " + vertices +
          "\nproperty double x\nproperty double y\nproperty double z\n" +
          (has_colours ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "") +
-         "element face " + quads +
-         "\nproperty list uchar uint vertex_indices\nend_header\n";
+         "element face " + quads + "\nproperty list uchar uint vertex_indices\nend_header\n";
 }
 
 }  // namespace

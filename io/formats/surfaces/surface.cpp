@@ -18,7 +18,10 @@ using PlaneRows = std::array<uint64_t, kTile>;
 // The voxels of a tile, and those beside it.
 class TileVoxels {
  public:
-  void clear() { rows_ = {}; below_ = above_ = {}; }
+  void clear() {
+    rows_ = {};
+    below_ = above_ = {};
+  }
 
   // At most 8 x 8 x 8 voxels; `at`: of their corner, in the tile, or one block beside it.
   void add(const Block& block, const LatticePoint& at) {
@@ -64,12 +67,18 @@ class TileVoxels {
     const uint64_t own = row(x, y);
     const auto bit = [&](const PlaneRows& plane) { return plane[size_t(x)] >> y & 1; };
     switch (direction) {
-      case 0: return own & ~row(x - 1, y);
-      case 1: return own & ~row(x + 1, y);
-      case 2: return own & ~row(x, y - 1);
-      case 3: return own & ~row(x, y + 1);
-      case 4: return own & ~(own << 1 | bit(below_));
-      default: return own & ~(own >> 1 | bit(above_) << (kTile - 1));
+      case 0:
+        return own & ~row(x - 1, y);
+      case 1:
+        return own & ~row(x + 1, y);
+      case 2:
+        return own & ~row(x, y - 1);
+      case 3:
+        return own & ~row(x, y + 1);
+      case 4:
+        return own & ~(own << 1 | bit(below_));
+      default:
+        return own & ~(own >> 1 | bit(above_) << (kTile - 1));
     }
   }
 
@@ -176,8 +185,8 @@ class TileSurface {
     for (int depth = 0; depth < kTile; ++depth) {
       PlaneRows plane;
       for (int i = 0; i < kTile; ++i)
-        plane[size_t(i)] = direction < 2 ? voxels_.faces(depth, i, direction)
-                                         : voxels_.faces(i, depth, direction);
+        plane[size_t(i)] =
+            direction < 2 ? voxels_.faces(depth, i, direction) : voxels_.faces(i, depth, direction);
       merge(direction, depth, &plane);
     }
   }
@@ -204,7 +213,8 @@ class TileSurface {
         const int first = std::countr_zero(row);
         const Colour colour = has_colours_ ? colours_[size_t(i)][size_t(first)] : Colour();
         const int length = config_.merge ? run_length(i, first, row, colour) : 1;
-        const uint64_t run = (length == kTile ? ~uint64_t(0) : (uint64_t(1) << length) - 1) << first;
+        const uint64_t run = (length == kTile ? ~uint64_t(0) : (uint64_t(1) << length) - 1)
+                             << first;
         row &= ~run;
         int end = i + 1;
         for (; config_.merge && end < kTile; ++end) {
@@ -263,8 +273,8 @@ class TileSurface {
     std::array<uint32_t, 4> quad;
     for (size_t k = 0; k < 4; ++k) {
       const LatticePoint& at = corners[is_reversed ? 3 - k : k];
-      quad[k] = vertices_.number_of(
-          {{int32_t(at.x), int32_t(at.y), int32_t(at.z)}, colour}, &tile_surface_.vertices);
+      quad[k] = vertices_.number_of({{int32_t(at.x), int32_t(at.y), int32_t(at.z)}, colour},
+                                    &tile_surface_.vertices);
     }
     tile_surface_.quads.push_back(quad);
     tile_surface_.directions.push_back(uint8_t(direction));

@@ -27,7 +27,7 @@
 namespace svdag {
 
 struct SurfaceConfig {
-  bool merge = true;  // false: a quad for each face
+  bool merge = true;    // false: a quad for each face
   bool colours = true;  // of the window, if it has some
 };
 
@@ -37,9 +37,9 @@ struct SurfaceTile {
     std::array<int32_t, 3> at;  // voxel planes of the grid
     Colour colour;              // of its quads
   };
-  std::vector<Vertex> vertices;                 // each once
+  std::vector<Vertex> vertices;                // each once
   std::vector<std::array<uint32_t, 4>> quads;  // of vertices
-  std::vector<uint8_t> directions;              // [quad]: 0 .. 5: -x, +x, -y, +y, -z, +z
+  std::vector<uint8_t> directions;             // [quad]: 0 .. 5: -x, +x, -y, +y, -z, +z
 };
 
 struct SurfaceCounts {

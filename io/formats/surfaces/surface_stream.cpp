@@ -10,11 +10,10 @@ namespace svdag {
 SurfaceCounts stream_surface(const VoxelWindow& window, const SurfaceFileConfig& config,
                              const SurfaceSink& write) {
   uint64_t quads = 0;
-  const SurfaceCounts counts =
-      visit_surface(window, config.surface, [&](const SurfaceTile& tile) {
-        quads += tile.quads.size();
-        if (quads <= config.max_quads) write(tile);
-      });
+  const SurfaceCounts counts = visit_surface(window, config.surface, [&](const SurfaceTile& tile) {
+    quads += tile.quads.size();
+    if (quads <= config.max_quads) write(tile);
+  });
   if (counts.quads > config.max_quads)
     fail_usage("the surface has " + format_count(counts.quads) + " quads, more than " +
                format_count(config.max_quads) +

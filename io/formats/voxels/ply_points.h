@@ -1,5 +1,6 @@
-// Writer of voxel centres as points of a PLY file: 3 x f64 world coordinates, little-endian; with
-// layers, the colour of the voxel's layer (red, green, blue).
+// Writer of `.ply` files of points: the centres of voxels, x, y, z (double), binary; of a file with
+// colours or layers also red, green, blue (uchar). A comment holds the voxel size, the grid's
+// corner and its resolution, which io/formats/points/ply_cloud.cpp reads.
 #pragma once
 
 #include <string>

@@ -34,9 +34,9 @@ uint16_t light16_of_code(uint8_t code) noexcept;
 
 // An image as its file has it, for a judge that decodes it by other means.
 struct EncodedImage {
-  std::string name;              // for errors
-  std::vector<std::byte> bytes;  // PNG or JPEG
-  double threshold = 0;          // texels with an alpha below it are cut out
+  std::string name;                        // for errors
+  std::vector<std::byte> bytes;            // PNG or JPEG
+  double threshold = 0;                    // texels with an alpha below it are cut out
   std::shared_ptr<const AlphaImage> mask;  // its alpha counts instead, at the centres of texels
   MemoryBudget::Reservation memory;
 };

@@ -38,8 +38,7 @@ class LinearImages {
                                            std::shared_ptr<const AlphaImage> mask = nullptr);
   // Of an image file.
   std::shared_ptr<const LinearImage> image_of_file(
-      const std::string& path, double threshold,
-      std::shared_ptr<const AlphaImage> mask = nullptr);
+      const std::string& path, double threshold, std::shared_ptr<const AlphaImage> mask = nullptr);
 
   MemoryBudget* budget() const { return budget_; }
   // "PATH: what is wrong", of each image that cannot be read and each note.

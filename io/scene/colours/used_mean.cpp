@@ -24,7 +24,7 @@ void UsedMean::add(TextureCorners corners) noexcept {
   for (const auto& [of_a, of_b, of_c] : kParts) {
     const ColourSum sample = sampler.at((of_a * a.u + of_b * b.u + of_c * c.u) / 6 * by_u,
                                         (of_a * a.v + of_b * b.v + of_c * c.v) / 6 * by_v);
-    for (size_t i = 0; i < 4; ++i) sums_[i] += (unsigned __int128)(units) * uint64_t(sample[int(i)]);
+    for (size_t i = 0; i < 4; ++i) sums_[i] += (unsigned __int128)(units)*uint64_t(sample[int(i)]);
   }
 }
 

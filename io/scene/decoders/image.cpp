@@ -178,8 +178,7 @@ AlphaTexels alpha_of_image(const ImageSource& source, MemoryBudget* budget, bool
 
 ColourTexels colours_of_image(const ImageSource& source, MemoryBudget* budget) {
   const CheckedImage image = check_image(source, budget);
-  return {image.size.width, image.size.height,
-          decoded_bytes<4>(source, image, put_colour)};
+  return {image.size.width, image.size.height, decoded_bytes<4>(source, image, put_colour)};
 }
 
 Thumbnail thumbnail_of_image(const ImageSource& source, MemoryBudget* budget,

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "io/colour.h"
-#include "io/scene/cutouts/cut_out.h"
 #include "io/scene/colours/linear_images.h"
+#include "io/scene/cutouts/cut_out.h"
 #include "io/scene/mesh/left_out.h"
 #include "io/scene/mesh/name_filter.h"
 #include "streaming/file/file.h"
@@ -48,7 +48,7 @@ struct MtlMaterials {
 
 struct MtlOptions {
   MemoryBudget* budget = nullptr;
-  bool allow_outside = false;    // also .mtl files and textures outside the folder of the .obj file
+  bool allow_outside = false;  // also .mtl files and textures outside the folder of the .obj file
   LinearImages* images = nullptr;  // if given, it notes what was left out
   // Of mtl_files(): the textures that colour, and those that cut materials out, unless null.
   bool colours = true;

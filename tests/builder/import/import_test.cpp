@@ -130,8 +130,8 @@ ImportReport import_layers(const LabelledVoxels& list, const LayerTable& layers,
       [&](const VoxelSink& sink, const FullCubeSink&) {
         for (size_t at = 0; at < list.voxels.size(); at += 1000) {
           const size_t count = std::min<size_t>(1000, list.voxels.size() - at);
-          sink(std::span(list.voxels).subspan(at, count),
-               std::span(list.labels).subspan(at, count), {});
+          sink(std::span(list.voxels).subspan(at, count), std::span(list.labels).subspan(at, count),
+               {});
         }
         return GridPlacement{};
       },

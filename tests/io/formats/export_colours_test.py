@@ -51,15 +51,16 @@ class ExportColours(unittest.TestCase):
         write_box(BAKERY.folder / "box.ply")
         for name, options in {"fine": ["--colour-level", "6"], "odd": ["--colour-level", "5"],
                               "solid": ["--rule", "solid", "--colour-level", "6", "--layers", "file"],
+                              "coarse": ["--rule", "solid", "--colour-level", "4"],
                               "exact": ["--colour-level", "6", "--colour-error", "0"]}.items():
             BAKERY.run("svdag", "build", "box.ply", "-o", f"{name}.svdag", "-r", "64", "-q", "--colours", *options)
-        cls.levels = {"fine": 6, "odd": 5, "solid": 6, "exact": 6}  # K
+        cls.levels = {"fine": 6, "odd": 5, "solid": 6, "coarse": 4, "exact": 6}  # K
         cls.dags = {name: cls.colours_of(name) for name in cls.levels}
 
     @classmethod
     def colours_of(cls, name):
         """The colour of each cube (level, x, y, z) that has one."""
-        if name != "solid":
+        if name not in ("solid", "coarse"):
             return BAKERY.dag(f"{name}.svdag").colours
         rows = [line.split() for line in BAKERY.run("tests/paint_dag", f"{name}.svdag").splitlines()]
         return {tuple(map(int, at)): colour for *at, colour in rows if colour != "none"}
@@ -168,7 +169,11 @@ class ExportColours(unittest.TestCase):
             self.assertEqual("label" in back[0], name == "solid")
             self.export(name, "x.basic_dag.dag.bin", "--level", level, "--colours")
             back += [self.imported("x.basic_dag.dag.bin"), self.imported("x.npz", "--layout", "compact", "--no-layers", "-m", "8M")]
+            self.export(name, "x.ply", "--level", level)
+            back.append(self.imported("x.ply"))
             for found in back:
+                self.assertEqual(found["resolution"], 2**level)
+                self.assertLess(numpy.abs(found["corner"] - arrays["corner"]).max(), 1e-9)
                 self.assertTrue(numpy.array_equal(found["coordinates"], arrays["coordinates"]))
                 self.assertTrue(numpy.array_equal(found["colours"], colours))
 

@@ -48,7 +48,7 @@ class Help(unittest.TestCase):
                 self.assertLessEqual(widest(text), columns, f"{command} at {columns}:\n{text}")
 
     def test_topics_fit_too(self):
-        for topic in ("grid", "rules", "memory", "farm", "formats", "exit-codes"):
+        for topic in ("grid", "rules", "layers", "colours", "memory", "farm", "formats", "exit-codes"):
             code, text = screen.shown([PROGRAMS / "svdag", "help", topic], 40)
             self.assertEqual(code, 0)
             self.assertLessEqual(widest(text), 40, text)

@@ -36,8 +36,8 @@ TEST(UsedMean, OfOneHalfIsItsColour) {
 
 TEST(UsedMean, TrianglesCountByTheirAreaInTheTexture) {
   UsedMean mean(halves());
-  mean.add({{{2, 2}, {28, 2}, {2, 28}}});     // 338 black texels
-  mean.add({{{40, 4}, {53, 4}, {40, 17}}});   // 84.5 white ones
+  mean.add({{{2, 2}, {28, 2}, {2, 28}}});      // 338 black texels
+  mean.add({{{40, 4}, {53, 4}, {40, 17}}});    // 84.5 white ones
   mean.add({{{60, 10}, {60, 10}, {60, 10}}});  // a point
   EXPECT_NEAR(red(mean), 0.2, 1e-3);
 }

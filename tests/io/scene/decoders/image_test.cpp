@@ -79,7 +79,8 @@ TEST(Image, RandomTexelsThatAreNotTransparentHaveTheirExactMean) {
     const std::string image = png(37, 41, alpha ? PngKind::kRgba : PngKind::kRgb, texels);
     const LinearColour light = mean(image);
     for (size_t c = 0; c < 3; ++c)
-      EXPECT_NEAR(double(light.units[c]), double(sums[c] / whole * double(kWhiteUnits)), 2 * kWhiteUnits / 65535.0);
+      EXPECT_NEAR(double(light.units[c]), double(sums[c] / whole * double(kWhiteUnits)),
+                  2 * kWhiteUnits / 65535.0);
     EXPECT_EQ(mean(image, true).units, light.units) << "in the sandbox";
   }
 }

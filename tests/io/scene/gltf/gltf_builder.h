@@ -96,7 +96,7 @@ using CornerList = std::vector<std::array<double, 3>>;
 
 // All corners of a file, three per triangle; `names` collects the mesh names.
 inline CornerList read_corners(const std::string& path, const NameFilter& filter = {},
-                            std::vector<std::string>* names = nullptr) {
+                               std::vector<std::string>* names = nullptr) {
   MemoryBudget budget;
   CornerList corners;
   const File file = File::open_read(path);
@@ -111,7 +111,7 @@ inline CornerList read_corners(const std::string& path, const NameFilter& filter
 }
 
 inline CornerList read_corners(const GltfBuilder& gltf, const NameFilter& filter = {},
-                            std::vector<std::string>* names = nullptr) {
+                               std::vector<std::string>* names = nullptr) {
   const TempFolder folder;
   return read_corners(folder.write("scene.glb", gltf.glb()), filter, names);
 }

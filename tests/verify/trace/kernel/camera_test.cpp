@@ -147,8 +147,8 @@ TEST(Camera, InsideIsNotBelowTheGround) {
   VoxelSet voxels;
   add_room({0, 0, 0}, {63, 24, 63}, &voxels);
   std::erase_if(voxels, [](const auto& voxel) { return std::get<1>(voxel) == 0; });  // hollow
-  add_room({40, 24, 40}, {44, 60, 44}, &voxels);                                     // a tower
-  add_room({8, 24, 20}, {12, 50, 30}, &voxels);
+  add_room({0, 25, 0}, {63, 50, 63}, &voxels);                                       // a court
+  std::erase_if(voxels, [](const auto& voxel) { return std::get<1>(voxel) == 50; });
   const RawFile file(raw_dag(test_grid(6), voxels));
   const Camera camera =
       preset_camera("inside", file.view(), framing_bounds(file.view()), 1, 40, 1.5);
