@@ -20,10 +20,13 @@ uint16_t channel_of(double value, PlyType type) {
   return uint16_t(257 * colour_code(share_of_range(value, type)));
 }
 
-// The grid of a comment; nothing if there is none, or an impossible one.
-std::optional<Grid> grid_of_comment(const File& file) {
+// The grid of a comment in the first lines of a file; nothing if there is none, or an impossible
+// one.
+std::optional<Grid> grid_of_comment(const File& file, uint64_t lines) {
   ByteStream stream(file);
-  for (auto line = stream.line(); line && *line != "end_header"; line = stream.line()) {
+  for (uint64_t i = 0; i < lines; ++i) {
+    const auto line = stream.line();
+    if (!line) break;
     const std::string text(line->substr(0, 256));
     Grid grid;
     Point& corner = grid.origin;
@@ -60,7 +63,7 @@ class PlyCloud final : public PointCloud {
         fail_input(file.path(), "has vertices without a coordinate \"" + name + "\"");
       roles_[*index] = size_t(a);
     }
-    grid = grid_of_comment(file);
+    grid = grid_of_comment(file, header_.lines);
     if (const auto colours = colours_of(vertex)) {
       for (size_t c = 0; c < 3; ++c) roles_[(*colours)[c]] = 3 + c;
       has_colours = true;
