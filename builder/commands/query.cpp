@@ -86,7 +86,7 @@ struct QuerySource {
   DagFile file;
   Grid grid = file.grid();
   Lattice lattice{grid};
-  std::optional<DagColours> colours;  // of a file that has them
+  std::optional<DagColours> colours = {};  // of a file that has them
 };
 
 // The box of voxels `min` to `end` - 1.
