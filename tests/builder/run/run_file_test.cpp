@@ -197,7 +197,7 @@ TEST(RunFile, AHostileFileIsRejectedWithItsFault) {
   const std::pair<const char*, Change> changes[] = {
       {"the number of levels", [](Hostile* h) { h->header()->levels = 21; }},
       {"wrong lattice fraction", [](Hostile* h) { h->header()->fraction = 5; }},
-      {"unknown rule", [](Hostile* h) { h->header()->rule = 4; }},
+      {"unknown rule", [](Hostile* h) { h->header()->rule = 5; }},
       {"unknown kind of grid", [](Hostile* h) { h->header()->grid_kind = 3; }},
       {"impossible voxel size", [](Hostile* h) { h->header()->voxel_size = -1; }},
       {"impossible grid corner", [](Hostile* h) { h->header()->origin[1] = 1.0 / 0.0; }},
