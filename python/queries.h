@@ -59,8 +59,7 @@ void fill_window_colours(const DagColours& colours, uint32_t level, const VoxelB
                          Executor* executor);
 
 // The voxels nearest to points (io/dag/nearest.h), and the distances in world units. -1 and
-// infinite where there is none within `max_distance`. A point that is a voxel stands for its
-// middle.
+// infinite where there is none within `max_distance`. A point of integers is the middle of a voxel.
 void find_nearest(const DagView& dag, std::span<const std::array<int64_t, 3>> points,
                   double max_distance, std::array<int32_t, 3>* voxels, double* distances,
                   Executor* executor);

@@ -13,7 +13,7 @@ namespace svdag {
 class SceneLayers {
  public:
   SceneLayers() = default;
-  // `is_one_file`: the layer of the scene's only file is grey, since there is no other.
+  // `is_one_file`: the layer of the scene's only file is grey.
   explicit SceneLayers(LayerKind kind, bool is_one_file = false)
       : kind_(kind), is_grey_(is_one_file && kind == LayerKind::kFile) {}
 

@@ -27,16 +27,6 @@ constexpr std::array<TypeName, 8> kTypes = {{{"char", "int8", 1},
                                              {"float", "float32", 4},
                                              {"double", "float64", 8}}};
 
-std::vector<std::string> words_of(std::string_view line) {
-  std::vector<std::string> words;
-  for (size_t at = 0;;) {
-    const size_t begin = line.find_first_not_of(" \t", at);
-    if (begin == std::string_view::npos) return words;
-    at = std::min(line.find_first_of(" \t", begin), line.size());
-    words.emplace_back(line.substr(begin, at - begin));
-  }
-}
-
 class HeaderParser {
  public:
   explicit HeaderParser(ByteStream* stream) : stream_(stream) {}

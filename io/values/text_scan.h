@@ -13,6 +13,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "io/values/decimal.h"
 #include "streaming/file/byte_stream.h"
@@ -186,5 +187,8 @@ class TextScanner {
   bool last_ = false;
   const char* plenty_ = nullptr;  // before this a whole word is visible
 };
+
+// The words of a line, which blanks and tabs separate.
+std::vector<std::string> words_of(std::string_view line);
 
 }  // namespace svdag

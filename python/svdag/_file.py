@@ -258,7 +258,7 @@ class File:
                 layer: Union[None, int, str] = None, *, threads: Optional[int] = None) -> Tuple[NDArray, NDArray]:
         """The set voxels nearest to (n, 3) points: voxels, (n, 3) int32, and distances, (n,) float64 in world units.
 
-        Floats are world coordinates, integers are voxels and stand for their middles. The distance is that to the closed cube of
+        Floats are world coordinates, integers are the middles of voxels. The distance is that to the closed cube of
         the voxel, 0 inside. Of several at the same distance, the first in the order of coords(). -1 and infinite where no voxel is
         within max_distance (world units). Exact for the point rounded to 2^-23 voxel; at most 2^36 voxels from the grid's corner.
         """

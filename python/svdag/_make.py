@@ -102,7 +102,7 @@ def build(vertices: Any, faces: Optional[ArrayLike] = None, path: Optional[PathL
         meshes = {name: _mesh(*mesh) if isinstance(mesh, (tuple, list)) else _mesh(mesh) for name, mesh in vertices.items()}
         options.setdefault("layers", "file")
     if not meshes:
-        raise ValueError("build: there is no mesh")
+        raise ValueError("build: the mapping has no mesh")
     for name in meshes:
         if name in ("", ".", "..") or "/" in name or "\0" in name or len(os.fsencode(name)) > 255:
             raise ValueError(f"build: {name!r} cannot be the name of a layer")

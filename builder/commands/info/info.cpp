@@ -232,7 +232,10 @@ int run(const InfoCommand& config) {
   } else if (one && begins_as_dag(first)) {
     reject_scene_options(".svdag");
     const bool needs_nodes = config.json || config.levels || config.layers;
-    !needs_nodes&& is_packed(first) ? info_pack(config) : info_dag(config);
+    if (!needs_nodes && is_packed(first))
+      info_pack(config);
+    else
+      info_dag(config);
   } else if (one && begins_with(kRunMagic, first)) {
     reject_scene_options("run");
     reject(config.levels, "--levels", "run");

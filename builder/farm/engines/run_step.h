@@ -33,7 +33,7 @@ struct StepConfig {
 struct StepReport {
   std::string output;
   bool done_before = false;  // a valid output was kept
-  bool removed = false;      // the plan was finished before, and this output is no longer there
+  bool removed = false;      // the plan was finished before, which removed this output
   Receipt receipt;
 };
 

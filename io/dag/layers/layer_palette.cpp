@@ -35,8 +35,7 @@ std::optional<Colour> parse_colour(const std::string& text) {
 LayerPalette read_palette(const std::string& path) {
   const File file = File::open_read(path);
   if (file.size() > kMaxBytes) fail_input(path, "is not a palette: it has more than 16 MiB");
-  std::string text(size_t(file.size()), '\0');
-  file.read_at(0, std::as_writable_bytes(std::span(text)));
+  const std::string text = file.text();
   LayerPalette palette{path, {}};
   uint64_t number = 0;
   for (size_t at = 0; at < text.size(); ++number) {

@@ -123,15 +123,6 @@ class PcdHeaderParser {
     return value;
   }
 
-  static std::vector<std::string> words_of(std::string_view line) {
-    std::vector<std::string> words;
-    for (size_t at = 0;;) {
-      const size_t begin = line.find_first_not_of(" \t", at);
-      if (begin == std::string_view::npos) return words;
-      at = std::min(line.find_first_of(" \t", begin), line.size());
-      words.emplace_back(line.substr(begin, at - begin));
-    }
-  }
   [[noreturn]] void fail(const std::string& sentence) const {
     fail_input(stream_.file().path(), sentence + " (line " + std::to_string(header_.lines) + ")");
   }

@@ -1,6 +1,6 @@
 // The points of a file, streamed in batches, as often as wanted.
 //
-// A coordinate p of a batch stands for the exact rational p * scale + offset of its axis. LAS files
+// A coordinate p of a batch is the exact rational p * scale + offset of its axis. LAS files
 // hold integers p with a scale and an offset; in other formats scale is 1 and offset 0. The product
 // is never rounded: exact_cell.h finds the voxel of the rational. Rejected: world coordinates in
 // double, which move a point on a plane between voxels to either side of it.

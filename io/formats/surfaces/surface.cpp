@@ -277,7 +277,6 @@ class TileSurface {
                                     &tile_surface_.vertices);
     }
     tile_surface_.quads.push_back(quad);
-    tile_surface_.directions.push_back(uint8_t(direction));
   }
 
   const VoxelWindow& window_;

@@ -39,7 +39,6 @@ struct SurfaceTile {
   };
   std::vector<Vertex> vertices;                // each once
   std::vector<std::array<uint32_t, 4>> quads;  // of vertices
-  std::vector<uint8_t> directions;             // [quad]: 0 .. 5: -x, +x, -y, +y, -z, +z
 };
 
 struct SurfaceCounts {

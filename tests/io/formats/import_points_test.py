@@ -244,6 +244,19 @@ class ImportPoints(unittest.TestCase):
                 self.assertRegex(text, rf"^svdag: {name}: .+\n$")
                 self.assertFalse((BAKERY.folder / "never.svdag").exists())
 
+    def test_a_file_that_ends_early_is_one_sentence_or_fewer_points(self):
+        files = {"a.las": write_points.las([[1, 2, 3], [4, 5, 6]], (0.01,) * 3, (0,) * 3, 4, 7),
+                 "t.pcd": write_points.pcd([[1, 2, 3.5], [4, 5, 6]], "ascii"), "b.pcd": write_points.pcd([[1, 2, 3.5]], "binary"),
+                 "a.ply": write_points.ply([[1, 2, 3], [4, 5, 6]], "binary_little_endian"), "a.xyz": b"1 2 3 255 0 9\n4 5 6 1 2 3\n"}
+        for name, data in files.items():
+            for size in range(0, len(data), 5):
+                (BAKERY.folder / name).write_bytes(data[:size])
+                done = subprocess.run([BAKERY.programs / "svdag-import", name, "-o", "cut.svdag", "-q", "-s", "1"],
+                                      cwd=BAKERY.folder, capture_output=True, text=True)
+                with self.subTest(name=name, size=size):
+                    self.assertIn(done.returncode, (0, 3))
+                    self.assertRegex(done.stderr, r"^$" if done.returncode == 0 else r"^svdag: .+\n$")
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -135,7 +135,7 @@ TEST_F(GltfImages, OnlyThePartOfTheImageThatTrianglesUseCounts) {
   const std::optional<Colour> both = colour();
   EXPECT_GT(both->r, 160);
   EXPECT_GT(both->g, 160);
-  // A list of another length is no error: the triangles do not need it.
+  // A list of another length is a note: the triangles do not need it.
   gltf_.json["meshes"][0]["primitives"].erase(1);
   gltf_.json["meshes"][0]["primitives"][0]["indices"] =
       gltf_.accessor(std::vector<uint16_t>{0, 1, 2}, "SCALAR");
