@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "io/trigonometry.h"
 
@@ -25,6 +28,16 @@ inline std::string colour_text(const Colour& colour) {
   char text[8];
   std::snprintf(text, sizeof text, "#%02x%02x%02x", colour.r, colour.g, colour.b);
   return text;
+}
+
+// Of "#rrggbb"; nothing for other texts.
+inline std::optional<Colour> parse_colour(std::string_view text) {
+  uint32_t rgb = 0;
+  const char* const end = text.data() + text.size();
+  if (text.size() != 7 || text[0] != '#' ||
+      std::from_chars(text.data() + 1, end, rgb, 16).ptr != end)
+    return std::nullopt;
+  return Colour{uint8_t(rgb >> 16), uint8_t(rgb >> 8), uint8_t(rgb)};
 }
 
 // The nearest code of a channel of 0 .. 1 in sRGB; what is outside is clamped, NaN is 0.
@@ -47,6 +60,17 @@ constexpr uint64_t kWhiteUnits = uint64_t(1) << 32;
 inline uint64_t light_units(double light) {
   return light > 0 ? uint64_t(std::llround(std::min(light, 1.0) * double(kWhiteUnits))) : 0;
 }
+// Linear light of a code in 16 bits.
+inline uint16_t light16_of_code(uint8_t code) noexcept {
+  static const std::array<uint16_t, 256> kLight = [] {
+    std::array<uint16_t, 256> light;
+    for (size_t i = 0; i < light.size(); ++i)
+      light[i] = uint16_t(light_of(double(i)) * 65535 + 0.5);
+    return light;
+  }();
+  return kLight[code];
+}
+
 // The nearest code.
 inline uint8_t code_of_units(uint64_t units) {
   static const std::array<uint64_t, 255> kBorders = [] {

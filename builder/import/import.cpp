@@ -114,7 +114,7 @@ class BrickColours {
     Sum& sum = sums_[bit];
     ++sum.count;
     const std::array<uint8_t, 3> codes{colour.r, colour.g, colour.b};
-    for (size_t c = 0; c < 3; ++c) sum.linear[c] += light_of_codes()[codes[c]];
+    for (size_t c = 0; c < 3; ++c) sum.linear[c] += light16_of_code(codes[c]);
   }
   // Passes the colours of the voxels `of` on, as those of the cubes of `level`, and forgets all.
   void move_to(SpilledColours* spilled, int level, uint64_t brick, Brick of) {
@@ -221,12 +221,12 @@ class GraphColours {
       stack_.pop_back();
       if (cube.level == dag_.levels) {
         const Colour colour = colours_.next();
-        const auto& light = light_of_codes();
-        part_.push_back({cube.morton,
-                         uint8_t(cube.level),
-                         true,
-                         true,
-                         {light[colour.r], light[colour.g], light[colour.b]}});
+        part_.push_back(
+            {cube.morton,
+             uint8_t(cube.level),
+             true,
+             true,
+             {light16_of_code(colour.r), light16_of_code(colour.g), light16_of_code(colour.b)}});
         continue;
       }
       const size_t first = stack_.size();

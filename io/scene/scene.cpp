@@ -187,6 +187,8 @@ SceneCounts Scene::stream(const TriangleSink& sink) const {
 LeftOut Scene::read_pose(const PoseTime* time, std::string_view frame, const NameFilter& names,
                          const TriangleSink& sink, MeshBox* box_alone, SceneCounts* counts) const {
   LeftOut left_out;
+  // The means of materials, which take a look at texture coordinates, are not for the box.
+  const bool needs_colours = config_.colours && (config_.paint || box_alone == nullptr);
   const Affine to_world = config_.to_world();
   for (const std::string& path : config_.paths) {
     const std::string name = base_name(path);
@@ -202,7 +204,7 @@ LeftOut Scene::read_pose(const PoseTime* time, std::string_view frame, const Nam
                         spill_,
                         box_alone,
                         config_.sandbox,
-                        config_.colours ? &images_ : nullptr,
+                        needs_colours ? &images_ : nullptr,
                         config_.allow_outside,
                         config_.hidden,
                         time};

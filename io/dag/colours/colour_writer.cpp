@@ -1,7 +1,6 @@
 #include "io/dag/colours/colour_writer.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "io/colour.h"
@@ -284,16 +283,6 @@ uint8_t srgb_code(uint16_t linear) {
     return codes;
   }();
   return kCodes[linear];
-}
-
-const std::array<uint16_t, 256>& light_of_codes() {
-  static const std::array<uint16_t, 256> kLight = [] {
-    std::array<uint16_t, 256> light;
-    for (size_t code = 0; code < light.size(); ++code)
-      light[code] = uint16_t(std::lround(65535 * light_of(double(code))));
-    return light;
-  }();
-  return kLight;
 }
 
 void add_colours(DagCopy* copy, const DagFile& dag, const ColourSettings& settings,

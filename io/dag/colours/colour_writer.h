@@ -25,8 +25,6 @@ namespace svdag {
 
 // The stored code, 8 bits of sRGB, of linear light of 16 bits: by 255 thresholds.
 uint8_t srgb_code(uint16_t linear);
-// Linear light of each code: srgb_code() gives the code back.
-const std::array<uint16_t, 256>& light_of_codes();
 
 // Returns the next colours, valid until the next call, in ascending order of their first cube of
 // level K; empty at the end.

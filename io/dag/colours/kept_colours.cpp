@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "io/colour.h"
 #include "io/dag/colours/colour_reader.h"
 #include "io/dag/colours/colour_writer.h"
 
@@ -18,8 +19,7 @@ class KeptCubes {
         from_(colours.view().dag),
         tables_(colours.tables()),
         level_(kept_colour_level(colours.view().level(), dag_.levels)),
-        reader_(colours.view(), coloured.header().colour_count),
-        light_(light_of_codes()) {
+        reader_(colours.view(), coloured.header().colour_count) {
     if (!dag_.empty()) stack_.push_back({{}, {}, 0, !from_.empty()});
   }
 
@@ -67,7 +67,7 @@ class KeptCubes {
   void add(const CoveredCube& cube, uint32_t colour, bool is_constant) {
     CubeColour entry{cube.morton, uint8_t(cube.level), colour != kNoColour, is_constant, {}};
     for (size_t c = 0; c < 3 && entry.has_colour; ++c)
-      entry.linear[c] = light_[colour >> 8 * c & 255];
+      entry.linear[c] = light16_of_code(uint8_t(colour >> 8 * c));
     part_.push_back(entry);
   }
 
@@ -76,7 +76,6 @@ class KeptCubes {
   const ColourCountTables& tables_;
   const uint32_t level_;
   ColourReader reader_;
-  const std::array<uint16_t, 256>& light_;
   std::vector<Pair> stack_;
   std::vector<CubeColour> part_;
 };

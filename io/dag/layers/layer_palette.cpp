@@ -1,6 +1,5 @@
 #include "io/dag/layers/layer_palette.h"
 
-#include <charconv>
 #include <optional>
 #include <set>
 
@@ -19,15 +18,6 @@ std::string trimmed(const std::string& text) {
   const size_t first = text.find_first_not_of(kSpace);
   if (first == std::string::npos) return {};
   return text.substr(first, text.find_last_not_of(kSpace) + 1 - first);
-}
-
-std::optional<Colour> parse_colour(const std::string& text) {
-  uint32_t rgb = 0;
-  const char* const end = text.data() + text.size();
-  if (text.size() != 7 || text[0] != '#' ||
-      std::from_chars(text.data() + 1, end, rgb, 16).ptr != end)
-    return std::nullopt;
-  return Colour{uint8_t(rgb >> 16), uint8_t(rgb >> 8), uint8_t(rgb)};
 }
 
 }  // namespace

@@ -13,8 +13,8 @@ constexpr uint64_t kHeadBytes = 2048;  // of the file's head and the JSON's chun
 constexpr uint64_t kPlaceBytes = 12, kColourBytes = 8;
 
 std::array<uint16_t, 4> linear16(const Colour& colour) {
-  const auto light = [](uint8_t code) { return uint16_t(light_of(code) * UINT16_MAX + 0.5); };
-  return {light(colour.r), light(colour.g), light(colour.b), UINT16_MAX};
+  return {light16_of_code(colour.r), light16_of_code(colour.g), light16_of_code(colour.b),
+          UINT16_MAX};
 }
 
 std::string numbers(const auto& values) {

@@ -66,15 +66,6 @@ uint16_t light16_of_srgb(double value) noexcept {
   return value > 0 ? light16(light_of(255 * std::min(value, 1.0))) : uint16_t(0);
 }
 
-uint16_t light16_of_code(uint8_t code) noexcept {
-  static const std::array<uint16_t, 256> kLight = [] {
-    std::array<uint16_t, 256> light;
-    for (size_t i = 0; i < light.size(); ++i) light[i] = light16(light_of(double(i)));
-    return light;
-  }();
-  return kLight[code];
-}
-
 LinearImage::LinearImage(int64_t width, int64_t height, const std::vector<uint8_t>& rgba,
                          double threshold, MemoryBudget::Reservation memory)
     : memory_(std::move(memory)) {

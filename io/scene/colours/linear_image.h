@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/colour.h"
 #include "io/scene/cutouts/alpha_image.h"
 #include "streaming/memory/memory_budget.h"
 
@@ -29,8 +30,6 @@ constexpr uint16_t kWhite16 = 65535;  // linear light of 1
 uint16_t light16(double light) noexcept;
 // Of a value of sRGB of 0 .. 1, clamped as well.
 uint16_t light16_of_srgb(double value) noexcept;
-// Of a code of sRGB.
-uint16_t light16_of_code(uint8_t code) noexcept;
 
 // An image as its file has it, for a judge that decodes it by other means.
 struct EncodedImage {

@@ -288,11 +288,7 @@ class ModelReader : public XmlReader {
 
   // "#RRGGBB" or "#RRGGBBAA".
   static std::optional<Colour> colour_of(std::string_view text) {
-    if (text.size() < 7 || text[0] != '#') return {};
-    uint32_t code = 0;
-    const auto [end, error] = std::from_chars(text.data() + 1, text.data() + 7, code, 16);
-    if (error != std::errc() || end != text.data() + 7) return {};
-    return Colour{uint8_t(code >> 16), uint8_t(code >> 8), uint8_t(code)};
+    return parse_colour(text.substr(0, 7));
   }
 
   Element start_paint(Element element) {
