@@ -9,12 +9,14 @@ Voxel coordinates are integers from 0 to resolution - 1, in the order x, y, z; w
 What fails raises svdag.Error.
 """
 from . import _svdag
-from ._commands import convert, diff, edit, export, import_file, info, pack, unpack, verify_mesh
+from ._commands import convert, diff, edit, export, info, pack, unpack, verify_mesh
 from ._error import Error
+from ._exchange import Mesh, import_file, to_mesh
 from ._file import File, Hits, Layer, open, unpack_bricks  # noqa: A004
 from ._make import build, build_files, from_array, from_coords, from_points
 from .usd import build_usd
 
-__all__ = ["Error", "File", "Hits", "Layer", "build", "build_files", "build_usd", "convert", "diff", "edit", "export", "from_array",
-           "from_coords", "from_points", "import_file", "info", "open", "pack", "unpack", "unpack_bricks", "verify_mesh"]
+__all__ = ["Error", "File", "Hits", "Layer", "Mesh", "build", "build_files", "build_usd", "convert", "diff", "edit", "export",
+           "from_array", "from_coords", "from_points", "import_file", "info", "open", "pack", "to_mesh", "unpack",
+           "unpack_bricks", "verify_mesh"]
 __version__ = _svdag.__version__

@@ -17,8 +17,7 @@ def _path(file: Input) -> PathLike:
 
 
 def _run(command: str, *words: Any, **options: Any) -> Dict[str, Any]:
-    return _programs.run_json("svdag-import" if command == "import" else "svdag", *([] if command == "import" else [command]), *words,
-                              *_programs.words_of(options))
+    return _programs.run_json("svdag", command, *words, *_programs.words_of(options))
 
 
 def info(path: Input, **options: Any) -> Dict[str, Any]:
@@ -45,11 +44,6 @@ def pack(path: Input, output: PathLike, **options: Any) -> Dict[str, Any]:
 def unpack(path: PathLike, output: PathLike, **options: Any) -> Dict[str, Any]:
     """Writes the file of a .pack, as `svdag unpack`."""
     return _run("unpack", path, "-o", output, **options)
-
-
-def import_file(path: PathLike, output: PathLike, **options: Any) -> Dict[str, Any]:
-    """Writes the voxels of another program's file as a .svdag, as `svdag import`: .npz, .vox, .vdb, .ply, ..."""
-    return _run("import", path, "-o", output, **options)
 
 
 def export(path: Input, output: PathLike, **options: Any) -> Dict[str, Any]:

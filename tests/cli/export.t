@@ -415,3 +415,33 @@ $ svdag export a.svdag -o a.npz --no-merge
 $ svdag export a.svdag -o a.npz --max-quads 10
 ! svdag: --max-quads: only glb, obj, stl and ply-surface are surfaces, the format is npz
 ? 2
+
+# Distances are dense arrays of a window, negative in solids; only npz holds them.
+$ svdag build a.glb -r 64 --rule solid -o c.svdag -q
+$ svdag export c.svdag -o d.npz --distance 3 --level 5 --json
+| {
+|   "output": "d.npz",
+|   "format": "npz",
+|   "level": 5,
+|   "resolution": 32,
+|   "voxels": 4198,
+|   "distances": 32768
+| }
+$ svdag export c.svdag -o d.npz --distance 64 && python3 -m zipfile -l d.npz | grep -o '[a-z_]*.npy'
+| d.npz: npz, 27,397 voxels of level 6 (64^3), 262,144 distances
+| distance.npy
+| corner.npy
+| voxel_size.npy
+| limit.npy
+$ svdag export c.svdag -o d.npz --distance 65
+! svdag: --distance: "65" is not a number from 1 to 64; see svdag export --help
+? 2
+$ svdag export c.svdag -o d.vox --distance 3
+! svdag: --distance: only npz holds distances, the format is vox
+? 2
+$ svdag export c.svdag -o d.npz --distance 3 --max-voxels 1K
+! svdag: there are 262,144 distances to write, more than 1,024: export a coarser --level, a part with --bounds, or raise --max-voxels
+? 2
+$ svdag export c.svdag -o d.npz --distance 3 -m 1M
+! svdag: the distances need 2 MiB in total, but the memory budget is 1 MiB: raise --memory
+? 5

@@ -444,6 +444,36 @@ class Programs(Files):
         self.assertEqual(report["voxels"], len(self.coords))
         self.assertTrue(svdag.diff(self.plain, self.folder / "back.svdag")["same"])
 
+    def test_a_surface_encloses_the_voxels(self):
+        side = svdag.open(self.plain).voxel_size
+        for options in {"no_merge": True}, {"level": 5}, {}:
+            mesh = svdag.to_mesh(self.plain, **options)
+            with svdag.open(self.plain, level=options.get("level")) as file:
+                enclosed = file.voxels * (side * 2 ** (svdag.open(self.plain).levels - file.levels)) ** 3
+            a, b, c = (mesh.vertices[mesh.faces[:, i]] for i in range(3))
+            self.assertAlmostEqual(np.einsum("ij,ij->", a, np.cross(b, c)) / 6 / enclosed, 1, 9)
+        self.assertIsNone(mesh.colours)
+        with svdag.from_coords([[1, 2, 3], [4, 5, 6]], self.folder / "two.svdag") and svdag.open(self.folder / "two.svdag") as two:
+            faces = svdag.to_mesh(two).faces
+        self.assertEqual(faces.shape, (24, 3))
+        edges = [tuple(face[[i, (i + 1) % 3]]) for face in faces for i in range(3)]
+        self.assertEqual(sorted(edges), sorted((b, a) for a, b in edges))
+        colours = svdag.to_mesh(self.folder / "layers.svdag").colours
+        self.assertEqual({tuple(c) for c in colours.tolist()}, {layer.colour for layer in svdag.open(self.folder / "layers.svdag").layers})
+        with self.assertRaisesRegex(svdag.Error, "quads"):
+            svdag.to_mesh(self.plain, max_quads=3)
+
+    def test_distances_are_those_to_the_set_voxels(self):
+        report = svdag.export(self.plain, self.folder / "distances.npz", distance=5, level=5)
+        found = np.load(self.folder / "distances.npz")
+        self.assertEqual(report["distances"], 32 ** 3)
+        with svdag.open(self.plain, level=5) as file:
+            coords = file.coords()
+            self.assertTrue((found["corner"] == file.origin).all() and found["voxel_size"] == file.voxel_size)
+        for at in self.random.integers(0, 32, (200, 3)):
+            square = min(25, ((coords - at) ** 2).sum(1).min())
+            self.assertEqual(found["distance"][tuple(at)], np.sqrt(np.float32(square)))
+
     def test_points_set_the_voxels_that_hold_them(self):
         points = self.random.uniform(-9, 9, (5000, 3))
         points[:20] = np.floor(points[:20])

@@ -34,11 +34,13 @@ def main():
     environment = {"HOME": os.environ.get("HOME", "/"), "PATH": str(TEST / "bin")}
     python = [TEST / "bin" / "python", "-B"]
     code = subprocess.run([*python, ROOT / "tests" / "python" / "package_test.py", ROOT], cwd=ROOT, env=environment).returncode
-    usd = pip("install", "usd-core")
-    if usd.returncode != 0:
-        print(f"usd-core cannot be installed: USD was not tested\n{usd.stderr}\n0 passed, 0 failed, 1 skipped")
-        return code
-    return code or subprocess.run([*python, ROOT / "tests" / "python" / "usd_test.py"], cwd=ROOT, env=environment).returncode
+    for name, packages in ("usd", ["usd-core"]), ("laz", ["laspy[lazrs]"]):
+        extra = pip("install", *packages)
+        if extra.returncode != 0:
+            print(f"{packages[0]} cannot be installed: {name} was not tested\n{extra.stderr}\n0 passed, 0 failed, 1 skipped")
+        else:
+            code |= subprocess.run([*python, ROOT / "tests" / "python" / f"{name}_test.py"], cwd=ROOT, env=environment).returncode
+    return code
 
 
 if __name__ == "__main__":

@@ -79,6 +79,8 @@ void reject_options_of_other_formats(const FormatRow& row, const ExportConfig& c
     fail_usage("--vdb-type: only vdb has grids of several types, the format is " + format);
   if (config.up && row.write != export_vox)
     fail_usage("--up: only vox has an axis that points up, the format is " + format);
+  if (config.distance && row.write != export_npz)
+    fail_usage("--distance: only npz holds distances, the format is " + format);
   if (config.colours && row.write != export_hashdag)
     fail_usage("--colours: only hashdag has a second file of colours, the format is " + format);
   const auto lists = {export_npz, export_binvox, export_vox, export_ply};
@@ -94,6 +96,7 @@ void reject_options_of_other_formats(const FormatRow& row, const ExportConfig& c
 
 bool holds_colours(const FormatRow& row, const ExportConfig& config) {
   if (row.write == export_hashdag) return config.colours;
+  if (config.distance) return false;
   return row.write == export_vdb || row.write == export_npz || row.write == export_vox ||
          row.write == export_ply || (is_surface(row) && row.write != export_stl);
 }
@@ -122,6 +125,7 @@ std::string report_json(const ExportConfig& config, const char* format, const Gr
                                  {"level", grid.levels},
                                  {"resolution", grid.resolution()},
                                  {"voxels", result.voxels}};
+  if (result.distances) json["distances"] = *result.distances;
   if (const auto& surface = result.surface) {
     json["faces"] = surface->faces;
     json["quads"] = surface->quads;
@@ -134,8 +138,9 @@ std::string report_json(const ExportConfig& config, const char* format, const Gr
   return json_text(json, 2) + "\n";
 }
 
-// ", 1,234 faces as 567 quads" of a surface, else nothing.
+// ", 1,234 faces as 567 quads" of a surface, ", 4,096 distances" of these, else nothing.
 std::string surface_text(const ExportResult& result) {
+  if (result.distances) return ", " + format_count(*result.distances) + " distances";
   if (!result.surface) return {};
   return ", " + format_count(result.surface->faces) + " faces as " +
          format_count(result.surface->quads) + " quads";

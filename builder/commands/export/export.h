@@ -21,6 +21,7 @@ struct ExportConfig {
   Selection selection;
   std::optional<uint64_t> max_voxels;  // limit of formats that list voxels; none: 10^9
   std::optional<uint64_t> max_quads;   // limit of surfaces; none: 10^9
+  std::optional<int> distance;         // --distance, npz: the largest distance, in voxels
   bool no_merge = false;               // --no-merge, surfaces: a quad for each face of a voxel
   std::optional<VdbFormat> vdb_type;   // --vdb-type; default: bool
   std::optional<int> up;               // --up, vox: the axis that is up, 0 to 2; default: y

@@ -30,6 +30,7 @@ struct ExportResult {
   };
   std::optional<Palette> palette{};
   std::optional<SurfaceCounts> surface{};
+  std::optional<uint64_t> distances{};  // number
 };
 
 // One function per format. Each writes config.output atomically.

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "builder/commands/export/export.h"
+#include "io/formats/voxels/distances.h"
 #include "io/help/command_line.h"
 #include "io/units.h"
 #include "streaming/process/interrupt.h"
@@ -31,12 +32,17 @@ void set_up(CLI::App* app, ExportConfig* config) {
   app->add_option_function<std::string>(
          "--max-voxels",
          [config](const std::string& s) { config->max_voxels = parse_count(s, "--max-voxels"); },
-         "npz, binvox, vox, ply: reject more voxels than this (default: 10^9)")
+         "npz, binvox, vox, ply: reject more voxels (or distances) than this (default: 10^9)")
       ->type_name("N");
   app->add_option_function<std::string>(
          "--max-quads",
          [config](const std::string& s) { config->max_quads = parse_count(s, "--max-quads"); },
          "glb, obj, stl, ply-surface: reject more quads than this (default: 10^9)")
+      ->type_name("N");
+  from_to(app->add_option("--distance", config->distance,
+                          "npz: of each voxel of the part the distance to the nearest set one, in "
+                          "voxels and at most N; negative in solids"),
+          1, kMaxDistance)
       ->type_name("N");
   app->add_flag("--no-merge", config->no_merge,
                 "glb, obj, stl, ply-surface: a quad for each face of a voxel, edge to edge");

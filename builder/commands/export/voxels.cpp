@@ -4,6 +4,7 @@
 #include "builder/commands/export/export_part.h"
 #include "io/dag/occupied_bounds.h"
 #include "io/formats/voxels/binvox.h"
+#include "io/formats/voxels/distances.h"
 #include "io/formats/voxels/npz.h"
 #include "io/formats/voxels/ply_points.h"
 #include "io/formats/voxels/vox.h"
@@ -15,16 +16,20 @@ namespace {
 
 constexpr uint64_t kDefaultMaxVoxels = 1'000'000'000;  // default of --max-voxels
 
+void check_count(uint64_t count, const char* what, const ExportConfig& config) {
+  const uint64_t most = config.max_voxels.value_or(kDefaultMaxVoxels);
+  if (count > most)
+    fail_usage("there are " + format_count(count) + " " + what + " to write, more than " +
+               format_count(most) +
+               ": export a coarser --level, a part with --bounds, or raise --max-voxels");
+}
+
 // Counts the voxels: the count in the file's header is not trusted.
 VoxelWindow window_of(ExportPart* part, const ExportConfig& config, MemoryBudget* budget) {
   const auto memory =
       budget->reserve(part->walk.counting_bytes(part->grid.selection), "counts of voxels");
   const VoxelWindow window{part->grid, &part->walk, part->walk.count_voxels(part->grid.selection)};
-  const uint64_t max_voxels = config.max_voxels.value_or(kDefaultMaxVoxels);
-  if (window.voxels > max_voxels)
-    fail_usage("there are " + format_count(window.voxels) + " voxels to write, more than " +
-               format_count(max_voxels) +
-               ": export a coarser --level, a part with --bounds, or raise --max-voxels");
+  check_count(window.voxels, "voxels", config);
   return window;
 }
 
@@ -49,9 +54,20 @@ VoxelBox occupied_window(const ExportPart& part) {
   return {box.min >> LatticePoint(shift), (box.max + up) >> LatticePoint(shift)};
 }
 
+ExportResult export_distances(ExportPart* part, const ExportConfig& config, MemoryBudget* budget) {
+  const LatticePoint size = part->grid.selection.max - part->grid.selection.min;
+  check_count(uint64_t(size.x) * uint64_t(size.y) * uint64_t(size.z), "distances", config);
+  const VoxelWindow window{part->grid, &part->walk, part->walk.count_voxels(part->grid.selection)};
+  const DistanceConfig distance{.limit = *config.distance,
+                                .is_signed = is_solid(part->file.rule())};
+  return {.voxels = window.voxels,
+          .distances = write_distances(window, distance, budget, config.output)};
+}
+
 }  // namespace
 
 ExportResult export_npz(ExportPart* part, const ExportConfig& config, MemoryBudget* budget) {
+  if (config.distance) return export_distances(part, config, budget);
   return export_window(part, config, budget, write_npz);
 }
 

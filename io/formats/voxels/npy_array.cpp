@@ -93,4 +93,19 @@ uint64_t read_integer(ByteStream* stream, const NpyArray& array) {
   return array.kind == 'i' ? uint64_t(int64_t(bits << unused) >> unused) : bits;
 }
 
+void begin_array(ZipWriter* zip, const std::string& name, const std::string& type,
+                 const std::string& shape) {
+  std::string header =
+      "{'descr': '" + type + "', 'fortran_order': False, 'shape': " + shape + ", }";
+  constexpr size_t kPrefixBytes = 10;  // magic, version, length
+  header.resize((kPrefixBytes + header.size() + 1 + 63) / 64 * 64 - kPrefixBytes - 1, ' ');
+  header += '\n';
+  zip->begin(name + ".npy");
+  zip->put(kNpyMagic);
+  zip->put(uint8_t(1));
+  zip->put(uint8_t(0));
+  zip->put(uint16_t(header.size()));
+  zip->put(header);
+}
+
 }  // namespace svdag

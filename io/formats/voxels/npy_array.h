@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "io/formats/voxels/zip.h"
 #include "streaming/file/byte_stream.h"
 #include "streaming/file/file.h"
 
@@ -40,5 +42,10 @@ inline bool is_text(const NpyArray& array) {
 
 // Reads the next integer of the array; a negative one of any width becomes a large number.
 uint64_t read_integer(ByteStream* stream, const NpyArray& array);
+
+// Begins an archive entry: an array of this type and shape, in NumPy's notation. Its elements follow
+// in C order.
+void begin_array(ZipWriter* zip, const std::string& name, const std::string& type,
+                 const std::string& shape);
 
 }  // namespace svdag

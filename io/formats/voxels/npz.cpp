@@ -14,22 +14,6 @@
 namespace svdag {
 namespace {
 
-// Begins an archive entry: an array of this type and shape, in NumPy's notation.
-void begin_array(ZipWriter* zip, const std::string& name, const std::string& type,
-                 const std::string& shape) {
-  std::string header =
-      "{'descr': '" + type + "', 'fortran_order': False, 'shape': " + shape + ", }";
-  constexpr size_t kPrefixBytes = 10;  // magic, version, length
-  header.resize((kPrefixBytes + header.size() + 1 + 63) / 64 * 64 - kPrefixBytes - 1, ' ');
-  header += '\n';
-  zip->begin(name + ".npy");
-  zip->put(kNpyMagic);
-  zip->put(uint8_t(1));
-  zip->put(uint8_t(0));
-  zip->put(uint16_t(header.size()));
-  zip->put(header);
-}
-
 bool is_coordinates(const NpyArray& a) {
   return is_integer(a) && a.shape.size() == 2 && a.shape[1] == 3;
 }
