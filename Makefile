@@ -29,6 +29,7 @@
 #   bench-layers     bytes and times of files with layers; its tables
 #   bench-colour     bytes, errors and speed of colours
 #   bench-solid      bytes and times of solids; its table
+#   bench-exchange   surfaces, points and distances; POINTS=1000000000 for more of them
 #   bench-python     the Python package beside trimesh and Open3D; the tables of docs/python.md
 #   bench-size       bytes of each layout, and rays per second through them; its tables
 #   wheel   build/wheel/*.whl: the Python package, with the programs and their libraries
@@ -55,7 +56,7 @@ PROGRAMS = build/$(PRESET)
 PYTHON = /usr/bin/python3 -B
 
 .PHONY: all deps build demo test test-sanitized test-farm test-python test-view stress fuzz-long bench bench-before bench-giants bench-sort \
-  bench-out-of-core bench-cache bench-accuracy bench-plan bench-vdb bench-trace bench-cuda bench-size bench-layers bench-colour bench-solid bench-python bundle wheel deb cuda \
+  bench-out-of-core bench-cache bench-accuracy bench-plan bench-vdb bench-trace bench-cuda bench-size bench-layers bench-colour bench-solid bench-exchange bench-python bundle wheel deb cuda \
   pictures clean
 all: build
 
@@ -167,6 +168,9 @@ bench-colour: build
 
 bench-layers: build
 	@$(PYTHON) tests/bench/layers.py --programs $(PROGRAMS)
+
+bench-exchange: build
+	@$(PYTHON) tests/bench/exchange.py --programs $(PROGRAMS) --points $(or $(POINTS),100000000)
 
 bench-python: wheel
 	$(call install,libusb-1.0-0 libgl1 libegl1 libgomp1 libx11-6)
