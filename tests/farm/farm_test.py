@@ -5,7 +5,7 @@ The generated atrium, divided into 16 shards, is baked
   by Slurm on four nodes, in two arrays of shards (MaxArraySize is 11); one node is killed while its job runs;
   by `svdag run -j 2`, which is interrupted and restarted;
   by the reference runner of Open Job Description (PyPI openjd-cli).
-If SVDAG_SCENES is set, Crytek Sponza is baked on Slurm too. --only ENGINE runs one of the tests.
+If SVDAG_SCENES is set, Crytek Sponza is baked on Slurm too, with colours. --only ENGINE runs one of the tests.
 """
 import argparse
 import functools
@@ -53,7 +53,7 @@ class Farm:
     def __init__(self, programs):
         self.programs = programs
         self.svdag = str(programs / "svdag")
-        self.baked = {}  # (scene, resolution) -> hash of one bake
+        self.baked = {}  # (scene, options) -> hash of one bake
 
     def call(self, *arguments, **options):
         done = subprocess.run([self.svdag, *map(str, arguments)], capture_output=True, text=True, timeout=TIMEOUT,
@@ -70,18 +70,18 @@ class Farm:
             subprocess.run([self.programs / "svdag-scene", name, "-q", "-o", path], check=True)
         return path
 
-    def hash_of_one_bake(self, name, resolution):
-        if (name, resolution) not in self.baked:
+    def hash_of_one_bake(self, name, options):
+        if (name, options) not in self.baked:
             output = FOLDER / f"{name}.svdag"
-            self.call("build", self.scene(name), "-o", output, "-r", resolution, "-q")
-            self.baked[name, resolution] = hash_of(output)
+            self.call("build", self.scene(name), "-o", output, *options, "-q")
+            self.baked[name, options] = hash_of(output)
             output.unlink()
-        return self.baked[name, resolution]
+        return self.baked[name, options]
 
-    def plan(self, name, resolution):
+    def plan(self, name, options):
         folder = FOLDER / f"{name}.plan"
         shutil.rmtree(folder, ignore_errors=True)
-        self.call("plan", self.scene(name), "-r", resolution, "--shards", SHARDS, "-o", folder, "-q")
+        self.call("plan", self.scene(name), *options, "--shards", SHARDS, "-o", folder, "-q")
         return folder
 
     def steps(self, plan):
@@ -90,10 +90,10 @@ class Farm:
     def done(self, plan):
         return [name for name in self.steps(plan) if (plan / "runs" / f"{name}.json").exists()]
 
-    def judge(self, name, resolution, plan):
+    def judge(self, name, options, plan):
         """Requires that the output equals that of one bake, and that no step exceeded its planned memory."""
         output = plan / json.loads((plan / "plan.json").read_text())["steps"][-1]["output"]
-        require(hash_of(output) == self.hash_of_one_bake(name, resolution),
+        require(hash_of(output) == self.hash_of_one_bake(name, options),
                 f"{output} differs from the output of one bake")
         for step in json.loads((plan / "plan.json").read_text())["steps"]:
             receipt = json.loads((plan / "runs" / f"{step['name']}.json").read_text())
@@ -102,8 +102,8 @@ class Farm:
         shutil.rmtree(plan)
 
 
-def by_slurm(farm, name, resolution, kill_a_node):
-    plan = farm.plan(name, resolution)
+def by_slurm(farm, name, options, kill_a_node):
+    plan = farm.plan(name, options)
     cluster = Cluster(FOLDER / "slurm")
     killed = None
     try:
@@ -143,7 +143,7 @@ def by_slurm(farm, name, resolution, kill_a_node):
         require("every step of the plan is done" in again, "a finished plan was submitted again:\n" + again)
     finally:
         cluster.stop()
-    farm.judge(name, resolution, plan)
+    farm.judge(name, options, plan)
 
 
 def interrupted(farm, plan):
@@ -160,9 +160,9 @@ def interrupted(farm, plan):
     return run.returncode
 
 
-def by_run(farm, name, resolution):
+def by_run(farm, name, options):
     for _ in range(5):  # on a busy machine the run may finish before the interrupt
-        plan = farm.plan(name, resolution)
+        plan = farm.plan(name, options)
         code = interrupted(farm, plan)
         if code != 0:
             break
@@ -173,7 +173,7 @@ def by_run(farm, name, resolution):
     (plan / "runs" / "shard-1.run").write_bytes(b"not a run")
     farm.call("run", plan, "-j", "2")
     log_line(f"  interrupted after {done} steps, one of them then damaged, and restarted")
-    farm.judge(name, resolution, plan)
+    farm.judge(name, options, plan)
 
 
 def openjd():
@@ -193,16 +193,16 @@ def openjd():
     return program
 
 
-def by_openjd(farm, name, resolution):
+def by_openjd(farm, name, options):
     program = openjd()
     if program is None:
         raise Skipped("PyPI cannot be reached, so openjd-cli could not be installed")
-    plan = farm.plan(name, resolution)
+    plan = farm.plan(name, options)
     template = farm.call("submit", plan, "--engine", "openjd").strip()
     for command in (["check", template], ["run", template]):
         done = subprocess.run([program, *command], capture_output=True, text=True, timeout=TIMEOUT)
         require(done.returncode == 0, f"openjd {command[0]}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
-    farm.judge(name, resolution, plan)
+    farm.judge(name, options, plan)
 
 
 def main():
@@ -212,11 +212,11 @@ def main():
     options = parser.parse_args()
     FOLDER.mkdir(parents=True, exist_ok=True)
     farm = Farm(options.programs.resolve())
-    tests = {"slurm": ("Slurm, a node is killed", lambda: by_slurm(farm, "atrium", "16K", True)),
-             "run": ("svdag run, interrupted and restarted", lambda: by_run(farm, "atrium", "4K")),
-             "openjd": ("Open Job Description", lambda: by_openjd(farm, "atrium", "4K"))}
+    tests = {"slurm": ("Slurm, a node is killed", lambda: by_slurm(farm, "atrium", ("-r", "16K"), True)),
+             "run": ("svdag run, interrupted and restarted", lambda: by_run(farm, "atrium", ("-r", "4K"))),
+             "openjd": ("Open Job Description", lambda: by_openjd(farm, "atrium", ("-r", "4K")))}
     if os.environ.get("SVDAG_SCENES") and farm.scene("sponza").exists():
-        tests["sponza"] = ("Slurm, Crytek Sponza", lambda: by_slurm(farm, "sponza", "4K", False))
+        tests["sponza"] = ("Slurm, Crytek Sponza with colours", lambda: by_slurm(farm, "sponza", ("-r", "1K", "--colours"), False))
     elif options.only == "sponza":
         sys.exit("SVDAG_SCENES is not a folder with crytek_sponza.glb")
     if os.geteuid() != 0 and options.only in (None, "slurm", "sponza"):
