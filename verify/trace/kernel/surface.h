@@ -3,6 +3,8 @@
 // Idea: Hoppe et al. 1992. The set voxels near a hit are samples of the surface; the direction of
 // their smallest covariance is its normal. Where the voxels do not form a sheet (a wire, a single
 // voxel), the normal is of the face that the ray entered.
+// Rejected: weights that fall towards the rim of the neighbourhood. On a smooth shape, the rings where
+// its voxels are wide terraces stay.
 #pragma once
 
 #include "verify/trace/kernel/vector.h"
