@@ -8,9 +8,9 @@ def table(head, rows):
 
 
 def shown(rows):
-    """Every other resolution, and the highest of each scene; the CSV files have all."""
+    """Every other resolution from 4K on, and the highest of each scene; the CSV files have all."""
     last = {r["scene"]: r["log2"] for r in rows}
-    return [r for r in rows if r["log2"] % 2 == 0 or r["log2"] == last[r["scene"]]]
+    return [r for r in rows if (r["log2"] % 2 == 0 and r["log2"] >= 12) or r["log2"] == last[r["scene"]]]
 
 
 def bakes(rows):

@@ -50,10 +50,9 @@ def measure(bakes, tracer, scene, log2, options):
     found = [result for variants in results.values() for result in variants]
     gpu = {layout: variants[0]["cuda"] for layout, variants in results.items()}
     cpu = results["plain"][0]["cpu"]
-    rows = [[f"{scene} {label(bakes.log2(log2))}³, {kind}", *[f"{rate(gpu[layout], kind):.0f}" for layout in LAYOUTS],
-             f"{rate(gpu['compact'], kind) / rate(gpu['plain'], kind):.2f}", f"{rate(gpu['plain'], kind) / rate(cpu, kind):.0f}"]
-            for kind in RAYS]
-    return rows, sum(r["pixels"] for r in found), sum(r["different"] for r in found), gpu["plain"]["device"]
+    row = [f"{scene} {label(bakes.log2(log2))}³", *[f"{rate(gpu[layout], kind):.0f}" for layout in LAYOUTS for kind in RAYS],
+           *[f"{rate(gpu['plain'], kind) / rate(cpu, kind):.0f}" for kind in RAYS]]
+    return [row], sum(r["pixels"] for r in found), sum(r["different"] for r in found), gpu["plain"]["device"]
 
 
 def main():
@@ -67,8 +66,8 @@ def main():
     for case in CASES:
         own, compared, differing, name = measure(bakes, options.tracer.resolve(), *case)
         rows, pixels, different, device = rows + own, pixels + compared, different + differing, name or device
-    text = (f"{device}, beside {processor()}: {different} of {pixels:,} pixels differ.\n\n" +
-            table(["grid, rays", *LAYOUTS, "compact / plain", "times the processor"], rows))
+    text = (f"{device}, beside {processor()}: {different} of {pixels:,} pixels differ. MRays/s:\n\n" +
+            table(["grid", *[f"{what}{kind}" for what in ("", "compact, ", "GPU / CPU, ") for kind in RAYS]], rows))
     print(text)
     if not options.coarser:
         fill(RESULTS / "tracing.md", {"trace cuda": text})

@@ -16,6 +16,7 @@ import tempfile
 from bench import PAGE, fill
 from bench_tables import table
 
+RAYS = ["primary", "shadow", "soft", "ao"]
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SHARED = {"dragon": "stanford_dragon.ply", "sponza": "crytek_sponza.glb", "lyon": "lyon_city_epsg3946.glb"}
 GENERATED = {"hairball 1M": ["hairball", "-n", "1M"], "atrium": ["atrium"], "scan": ["scan"]}
@@ -117,15 +118,16 @@ def main():
                 large.append([name, f"{resolution}³", f"{plain:.1f}", f"{compact:.1f}", f"{compact / plain:.3f}",
                               f"{packed / plain:.3f}", f"{smallest / plain:.3f}", f"{packs:.0f}", f"{unpacks:.0f}"])
             if (name, resolution) in (("sponza", "16K"), ("sponza", "64K"), ("dragon", "8K")):
-                for workload, (a, b) in sizes.rays([paths["plain"], paths["compact"]]).items():
-                    traced.append([name, f"{resolution}³", workload, f"{a:.2f}", f"{b:.2f}", f"{b / a:.2f}"])
+                rays = sizes.rays([paths["plain"], paths["compact"]])
+                traced.append([name, f"{resolution}³", *[f"{rays[kind][0]:.2f}" for kind in RAYS],
+                               *[f"{rays[kind][1] / rays[kind][0]:.2f}" for kind in RAYS]])
             print(f"{name} {resolution}: {plain:.2f} {compact:.2f} MB", flush=True)
     fill(PAGE, {
         "layouts": table(["scene", "grid", "plain, MB", "compact, MB", "compact / plain", "packed / plain", "at level 19",
                           "pack, MB/s", "unpack, MB/s"], large),
         "layouts and peers": table(["scene", "grid", "plain, MB", "compact, MB", ".ssvdag, MB", "tdag16, MB",
                                     "compact / smaller of them", ".vdb, MB"], peers),
-        "layouts traced": table(["scene", "grid", "rays", "plain, MRays/s", "compact, MRays/s", "ratio"], traced)})
+        "layouts traced": table(["scene", "grid", *RAYS, *[f"{kind}, ratio" for kind in RAYS]], traced)})
 
 
 if __name__ == "__main__":
