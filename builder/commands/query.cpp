@@ -1,11 +1,16 @@
 // `svdag query FILE.svdag < POINTS`: which points are in a set voxel, and its colour; or
 // which voxel is the nearest.
+#include <unistd.h>
+
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "builder/commands/commands.h"
 #include "io/dag/colours/dag_colours.h"
@@ -25,6 +30,7 @@ namespace {
 
 constexpr const char* kInput = "standard input";
 constexpr size_t kMaxLine = 65536;  // bytes
+constexpr size_t kTogether = 32;    // points that are looked up together, to hide the memory's time
 
 // The next line of standard input, without its end. False at the end of the input.
 bool read_line(uint64_t number, std::string* line) {
@@ -70,15 +76,24 @@ std::optional<LatticePoint> voxel_of(const Lattice& lattice, const Grid& grid, c
   return voxel;
 }
 
+// The shortest decimal that is read as the same number.
+void append(std::string* out, double value) {
+  std::array<char, 32> digits;
+  out->append(digits.data(), std::to_chars(digits.begin(), digits.end(), value).ptr);
+}
+
 // "  #rrggbb", or "  none".
-void print_colour(const ColourView& colours, const LatticePoint& voxel) {
+void append_colour(std::string* out, const ColourView& colours, const LatticePoint& voxel) {
   const uint32_t colour = svdag_colour(colours, colours.dag.levels, uint32_t(voxel.x),
                                        uint32_t(voxel.y), uint32_t(voxel.z));
   if (colour == kNoColour) {
-    std::printf("  none");
-  } else {
-    std::printf("  #%02x%02x%02x", colour & 255, colour >> 8 & 255, colour >> 16);
+    *out += "  none";
+    return;
   }
+  std::array<char, 16> code;
+  std::snprintf(code.data(), code.size(), "  #%02x%02x%02x", colour & 255, colour >> 8 & 255,
+                colour >> 16);
+  *out += code.data();
 }
 
 // What answers points.
@@ -90,36 +105,55 @@ struct QuerySource {
 };
 
 // The box of voxels `min` to `end` - 1.
-void print_box(const Grid& grid, const LatticePoint& min, const LatticePoint& end) {
+void append_box(std::string* out, const Grid& grid, const LatticePoint& min,
+                const LatticePoint& end) {
   const Box box = world_box(grid, {min, end});
-  std::printf("  %.17g %.17g %.17g  %.17g %.17g %.17g", box.min.x, box.min.y, box.min.z, box.max.x,
-              box.max.y, box.max.z);
+  for (const Point& corner : {box.min, box.max}) {
+    for (int a = 0; a < 3; ++a) {
+      *out += a == 0 ? "  " : " ";
+      append(out, corner[a]);
+    }
+  }
 }
 
-void print_cube(const QuerySource& source, const Point& point) {
+void append_cube(std::string* out, const QuerySource& source, const Point& point) {
   const auto voxel = voxel_of(source.lattice, source.grid, point);
   if (!voxel) {
-    std::printf("outside");
+    *out += "outside\n";
     return;
   }
   const CubeAt cube = cube_at(source.file.view(), *voxel);
-  std::printf("%s %d", cube.set ? "set" : "empty", cube.level);
-  print_box(source.grid, cube.min, cube.min + (int64_t(1) << (source.grid.levels - cube.level)));
-  if (cube.set && source.colours) print_colour(source.colours->view(), *voxel);
+  *out += (cube.set ? "set " : "empty ") + std::to_string(cube.level);
+  append_box(out, source.grid, cube.min,
+             cube.min + (int64_t(1) << (source.grid.levels - cube.level)));
+  if (cube.set && source.colours) append_colour(out, source.colours->view(), *voxel);
+  *out += '\n';
 }
 
-void print_nearest(const QuerySource& source, const Point& point, double max_distance) {
-  double distance = 0;
-  const NearestSetVoxel nearest =
-      nearest_in_world(source.file.view(), {point.x, point.y, point.z}, max_distance, &distance);
-  if (!nearest.found) {
-    std::printf("none");
-    return;
+void append_nearest(std::string* out, const QuerySource& source, std::span<const Point> points,
+                    double max_distance) {
+  const DagView& dag = source.file.view();
+  int64_t units[kTogether][3] = {};
+  std::array<bool, kTogether> is_near;
+  std::array<NearestPath, kTogether> paths;
+  for (size_t i = 0; i < points.size(); ++i)
+    is_near[i] = snap_for_nearest(dag, {points[i].x, points[i].y, points[i].z}, units[i]);
+  find_paths(dag, units, points.size(), paths.data());
+  for (size_t i = 0; i < points.size(); ++i) {
+    double distance = 0;
+    NearestSetVoxel nearest;
+    if (is_near[i]) nearest = nearest_within(dag, units[i], paths[i], max_distance, &distance);
+    if (!nearest.found) {
+      *out += "none\n";
+      continue;
+    }
+    const LatticePoint voxel(nearest.voxel[0], nearest.voxel[1], nearest.voxel[2]);
+    *out += "near ";
+    append(out, distance);
+    append_box(out, source.grid, voxel, voxel + int64_t(1));
+    if (source.colours) append_colour(out, source.colours->view(), voxel);
+    *out += '\n';
   }
-  const LatticePoint voxel(nearest.voxel[0], nearest.voxel[1], nearest.voxel[2]);
-  std::printf("near %.17g", distance);
-  print_box(source.grid, voxel, voxel + int64_t(1));
-  if (source.colours) print_colour(source.colours->view(), voxel);
 }
 
 }  // namespace
@@ -128,18 +162,31 @@ int run(const QueryCommand& command) {
   MemoryBudget budget(default_memory_limit());
   QuerySource source{.file = open_dag(command.file)};
   if (source.file.has_colours()) source.colours.emplace(source.file, &budget);
-  std::string line;
-  for (uint64_t number = 1; read_line(number, &line); ++number) {
-    check_interrupt();
-    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    const Point point = parse_point(line, number);
+  const size_t together = isatty(STDIN_FILENO) != 0 ? 1 : kTogether;
+  std::string line, answers;
+  std::vector<Point> points;
+  const auto answer = [&] {
+    answers.clear();
     if (command.nearest) {
-      print_nearest(source, point, command.max_distance);
+      append_nearest(&answers, source, points, command.max_distance);
     } else {
-      print_cube(source, point);
+      for (const Point& point : points) append_cube(&answers, source, point);
     }
-    std::putchar('\n');
+    points.clear();
+    std::fwrite(answers.data(), 1, answers.size(), stdout);
+  };
+  try {
+    for (uint64_t number = 1; read_line(number, &line); ++number) {
+      check_interrupt();
+      if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+      points.push_back(parse_point(line, number));
+      if (points.size() == together) answer();
+    }
+  } catch (const Error&) {
+    answer();  // the points before it
+    throw;
   }
+  answer();
   return int(ExitCode::kOk);
 }
 
