@@ -103,10 +103,11 @@ void add_build_options(CLI::App* app, BakeOptions* options) {
   takes_files(app->add_option("SCENE", build->scene.paths, "Scene files; several are one scene"),
               scene_endings())
       ->required();
-  takes_files(app->add_option("-o,--output", build->output, "The .svdag, or the .run, to write"),
-              {".svdag", ".run"})
-      ->required()
-      ->type_name("OUT");
+  CLI::Option* const output = takes_files(app->add_option("-o,--output", build->output,
+                                                          "The .svdag, or the .run, to write"),
+                                          {".svdag", ".run"})
+                                  ->required()
+                                  ->type_name("OUT");
   add_frames(app, build);
   CLI::Option_group* const grid = add_bake_options(app, &options->bake);
   // The defaults of a batch may have a grid.
@@ -118,6 +119,7 @@ void add_build_options(CLI::App* app, BakeOptions* options) {
   add_result_options(app, options, "Only predict the time, memory and disk space of the bake",
                      "Write a report of the bake as JSON; -: to stdout, instead of the summary",
                      "Print the report, or the prediction of --dry-run, as JSON");
+  app->get_option("--dry-run")->each([output](const std::string&) { output->required(false); });
 }
 
 // The long names of the flags that were given.
@@ -159,7 +161,8 @@ void add_build(CLI::App* program, Command* command) {
                "See also: svdag help grid, rules, memory.");
   app->preparse_callback([=](size_t) { *options = {}; });
   app->callback([=] {
-    const BakeCommand& bake = options->bake;
+    BakeCommand& bake = options->bake;
+    if (bake.build.output.empty()) bake.build.output = "dry-run.svdag";  // is not written
     if (options->dry_run)
       *command = DryRunCommand{bake.build, bake.threads, bake.output};
     else

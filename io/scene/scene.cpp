@@ -301,7 +301,7 @@ void Scene::fail_empty(const SceneCounts& counts) const {
     const SceneFormat& format = detect_format(file);
     if (format.holds_only_points != nullptr && format.holds_only_points(file))
       why += "; " + base_name(path) +
-             " holds only points: reconstruct a surface first, for example with CloudCompare";
+             " holds only points, which svdag import takes; for triangles, reconstruct a surface";
   }
   fail_input(config_.paths.front(), "the scene has no triangles to bake" + why);
 }

@@ -111,6 +111,8 @@ constexpr const char* kBySvdagUsd =
 constexpr const char* kByMeshLab = "convert it to .ply, for example with MeshLab or Open3D";
 constexpr const char* kByCloudCompare =
     "svdag bakes triangles: reconstruct a surface first, for example with CloudCompare";
+constexpr const char* kByImport =
+    "svdag import takes points; for triangles, reconstruct a surface";
 
 struct ForeignFormat {
   std::string_view endings;  // separated by spaces, with one at both ends
@@ -127,8 +129,9 @@ constexpr ForeignFormat kForeignFormats[] = {
     {" step stp iges igs ", "ISO-1030", "a CAD model",
      "tessellate it, for example with FreeCAD, and export it as .stl"},
     {" vrml wrl x3d ", "#VRML", "VRML or X3D", kByMeshLab},
-    {" las laz ", "LASF", "a point cloud (LAS)", kByCloudCompare},
-    {" e57 pcd xyz pts ", "ASTM-E57", "a point cloud", kByCloudCompare},
+    {" las laz ", "LASF", "a point cloud (LAS)", kByImport},
+    {" pcd xyz ", "", "a point cloud", kByImport},
+    {" e57 pts ", "ASTM-E57", "a point cloud", kByCloudCompare},
     {" cmpt ", "cmpt\1", "a composite of 3D Tiles", "unpack its tiles"},
     {" pnts ", "pnts\1", "a point cloud of 3D Tiles", kByCloudCompare},
     {" splat spz ", "", "a Gaussian splat", "svdag bakes triangles: extract a mesh first"},

@@ -23,6 +23,8 @@ _SMALL_INPUT = 1 << 26  # bytes; of a larger one the result goes to disk
 _MIN_FREE = 1 << 30  # bytes
 _ROWS = 1 << 20  # of points, written at once
 
+_Mesh = Tuple[NDArray, NDArray, Optional[NDArray]]
+
 Made = Any  #: the report as a dict or, if the path is None, a File in memory, which has the report
 
 
@@ -62,24 +64,44 @@ def _refuse_faces(faces: Any) -> None:
         raise TypeError("build: faces beside an object or a mapping that has its own: name the path, path=...")
 
 
-def _mesh(mesh: Any, faces: Any = None) -> Tuple[NDArray, NDArray]:
-    """Vertices and faces of a pair, or of an object that has them, such as a mesh of trimesh."""
+def _colours_of(mesh: Any) -> Optional[NDArray]:
+    """The colours of the vertices of a mesh of trimesh or of to_mesh(), (n, 3) uint8, or None."""
+    visual = getattr(mesh, "visual", None)
+    colours = visual.vertex_colors if getattr(visual, "kind", None) == "vertex" else getattr(mesh, "colours", None)
+    return None if colours is None else np.asarray(colours)[:, :3].astype(np.uint8, casting="safe")
+
+
+def _mesh(mesh: Any, faces: Any = None) -> _Mesh:
+    """Vertices, faces and colours of a pair, or of an object that has them, such as a mesh of trimesh."""
+    colours = None
     if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
         _refuse_faces(faces)
+        colours = _colours_of(mesh)
         mesh, faces = mesh.vertices, mesh.faces
-    return rows(mesh, "<f8", "vertices"), rows(faces, np.int64, "faces")
+    elif hasattr(mesh, "geometry"):
+        raise TypeError(f"build: {type(mesh).__name__} is not a mesh: give build_files() its file, or scene.to_mesh()")
+    points = rows(mesh, "<f8", "vertices")
+    if colours is not None and colours.shape != points.shape:
+        raise ValueError(f"build: colours of the shape {colours.shape} for vertices of {points.shape}")
+    return points, rows(faces, np.int64, "faces"), colours
 
 
-def write_ply(path: pathlib.Path, points: NDArray, corners: NDArray) -> None:
+def write_ply(path: pathlib.Path, points: NDArray, corners: NDArray, colours: Optional[NDArray] = None) -> None:
     if len(corners) > 0 and not (corners.min() >= 0 and corners.max() < len(points)):
         raise ValueError(f"faces: an index is not 0 to {len(points) - 1}")
     if len(points) >= 2 ** 31:
         raise ValueError("vertices: 2^31 or more")
     records = np.empty(len(corners), [("n", "u1"), ("v", "<i4", 3)])
     records["n"], records["v"] = 3, corners
+    channels = ""
+    if colours is not None:
+        channels = "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+        coloured = np.empty(len(points), [("at", "<f8", 3), ("colour", "u1", 3)])
+        coloured["at"], coloured["colour"] = points, colours
+        points = coloured
     with path.open("wb") as file:
         file.write(f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\nproperty double x\nproperty double y\n"
-                   f"property double z\nelement face {len(records)}\nproperty list uchar int vertex_indices\nend_header\n".encode())
+                   f"property double z\n{channels}element face {len(records)}\nproperty list uchar int vertex_indices\nend_header\n".encode())
         points.tofile(file)
         records.tofile(file)
 
@@ -89,17 +111,20 @@ def build(vertices: Any, faces: Optional[ArrayLike] = None, path: Optional[PathL
     """Bakes triangles as the file `path`, with the bytes that `svdag build` gives, and returns its report.
 
     vertices: (n, 3) real numbers; faces: (m, 3) indices of them. Or one object that has `vertices` and `faces`, as meshes of
-    trimesh. Or a mapping from names to such pairs or objects, each a layer of this name.
+    trimesh and of to_mesh(), whose colours of vertices colours=True bakes. Or a mapping from names to such pairs or objects, each a
+    layer of this name.
     path: None makes a File in memory instead, whose `report` is the report.
     options: those of `svdag build`: resolution="1K" or voxel_size=0.05, rule="solid", memory="1G", layout="compact",
     bounds=(x0, y0, z0, x1, y1, z1), sandbox=True, ...
     progress: is called as progress(phase, share), with shares from 0 to 1.
     """
+    if path is None and isinstance(faces, (str, os.PathLike)):
+        faces, path = None, faces
     if not isinstance(vertices, Mapping):
         meshes = {"scene": _mesh(vertices, faces)}
     else:
         _refuse_faces(faces)
-        meshes = {name: _mesh(*mesh) if isinstance(mesh, (tuple, list)) else _mesh(mesh) for name, mesh in vertices.items()}
+        meshes = {name: _mesh(mesh) if hasattr(mesh, "vertices") else _mesh(*mesh) for name, mesh in vertices.items()}
         options.setdefault("layers", "file")
     if not meshes:
         raise ValueError("build: the mapping has no mesh")
@@ -111,14 +136,14 @@ def build(vertices: Any, faces: Optional[ArrayLike] = None, path: Optional[PathL
         folder = os.path.dirname(os.path.abspath(os.fsdecode(output)))
         with tempfile.TemporaryDirectory(prefix=".svdag-scene-", dir=folder if os.path.isdir(folder) else None) as temporary:
             files = [pathlib.Path(temporary) / name for name in meshes]  # a layer has the name of its file
-            for file, (points, corners) in zip(files, meshes.values()):
-                write_ply(file, points, corners)
+            for file, mesh in zip(files, meshes.values()):
+                write_ply(file, *mesh)
             try:
                 return build_files(files, output, progress=progress, **options)
             except Error as error:
                 raise without_folder(error, temporary) from None
     _scratch_on_disk(path, options)
-    return made(path, bake, sum(points.nbytes + corners.nbytes for points, corners in meshes.values()))
+    return made(path, bake, sum(points.nbytes + corners.nbytes for points, corners, _ in meshes.values()))
 
 
 def build_files(scenes: Union[PathLike, Sequence[PathLike]], path: Optional[PathLike] = None, *,

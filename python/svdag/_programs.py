@@ -28,6 +28,8 @@ def words_of(options: Mapping[str, Any]) -> list:
     words = []
     for name, value in options.items():
         option = "--" + name.replace("_", "-")
+        if getattr(value, "ndim", 0) > 0:
+            raise TypeError(f"{name}: an array is not an option")
         for each in value if isinstance(value, list) else [value]:
             if each is None or each is False:
                 continue

@@ -104,6 +104,10 @@ class Package(unittest.TestCase):
             "-o", self.root / "red.svdag")
         self.assertRegex(run(build / "engine", self.root / "red.svdag", "1", "9", "1"), r"^red, #ff0000, 5\.9\d* below\n$")
         self.assertRegex(run(build / "engine", self.root / "red.svdag", "8", "9", "1"), r"^blue, #0000ff, 8\.[89]\d* below\n$")
+        run(BUILD / "svdag", "build", self.root / "red.obj", "-r", "64", "-q", "-o", self.root / "plain.svdag")
+        self.assertRegex(run(build / "engine", self.root / "plain.svdag", "1", "9", "1"), r"^no layer, 5\.9\d* below\n$")
+        done = subprocess.run([build / "engine", self.root / "none.svdag", "1", "9", "1"], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (1, ""))
 
     def test_view_and_format_side_by_side_need_no_include_path(self):
         prefix, alone = self.install(), self.root / "side_by_side"

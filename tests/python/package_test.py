@@ -463,6 +463,21 @@ class Programs(Files):
         with self.assertRaisesRegex(svdag.Error, "quads"):
             svdag.to_mesh(self.plain, max_quads=3)
 
+    def test_colours_of_vertices_are_baked(self):
+        mesh = svdag.to_mesh(self.folder / "layers.svdag", level=5)
+        svdag.build(mesh, self.folder / "again.svdag", resolution=64, colours=True, colour_error=0)
+        with svdag.open(self.folder / "again.svdag") as file:
+            found = {tuple(c) for c in file.colours(file.coords()).tolist()}
+        self.assertLessEqual({layer.colour for layer in svdag.open(self.folder / "layers.svdag").layers}, found)
+        with svdag.build({"all": mesh}, resolution=64) as file:
+            self.assertEqual([layer.name for layer in file.layers], ["all"])
+        with self.assertRaisesRegex(TypeError, "colours: an array"):
+            svdag.build(mesh, resolution=64, colours=mesh.colours)
+        with self.assertRaisesRegex(ValueError, "shape"):
+            svdag.build(mesh._replace(colours=mesh.colours[1:]), resolution=64)
+        with self.assertRaisesRegex(TypeError, "not a mesh"):
+            svdag.build(type("Scene", (), {"geometry": {}})(), resolution=64)
+
     def test_distances_are_those_to_the_set_voxels(self):
         report = svdag.export(self.plain, self.folder / "distances.npz", distance=5, level=5)
         found = np.load(self.folder / "distances.npz")

@@ -197,7 +197,10 @@ Verdict verdict_of(const DiffConfig& config, const DagDiff& diff, const DiffCoun
                           std::to_string(voxel.z) + ")"));
     verdict.for_programs(member("first", i) + "in", in_a ? "a" : "b");
   }
-  if (colours != nullptr) verdict.add("colours", "colours", colours);
+  if (colours != nullptr)
+    verdict.add(
+        "colours", "colours",
+        shown(colours, std::string(colours) == "different" ? "stored differently" : colours));
   verdict.add("same", "", shown(same(counts, layers), same(counts, layers) ? "same" : "different"));
   return verdict;
 }

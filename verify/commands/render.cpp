@@ -174,7 +174,7 @@ int run(const RenderCommandConfig& config) {
   const ShadeMode mode = parse_mode(mode_name);
   if (mode == ShadeMode::kColour && !coloured)
     fail_usage("--mode colour: " + file.path() +
-               " has neither colours nor layers (svdag build --layers)");
+               " has neither colours nor layers (svdag build --colours, --layers)");
   picture.beams = mode != ShadeMode::kSteps;  // beams would hide steps
   const ShownColours colours(file);
   if (coloured) colours.show_in(&picture);

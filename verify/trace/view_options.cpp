@@ -96,8 +96,7 @@ void add_rays(CLI::App* app, ViewOptions* view, const RayDefaults& defaults) {
          "Position and radius of the light in scene units (default: " + defaults.light + ")")
       ->type_name("x,y,z[,radius]");
   from_to(app->add_option("--samples", view->samples,
-                          "soft, ao: rays to the light or sky for each camera ray, 1 to 4096 "
-                          "(default " +
+                          "soft, ao: rays to the light or sky for each camera ray (default " +
                               defaults.samples + ")"),
           1, 4096)
       ->type_name("N");

@@ -59,8 +59,10 @@ bool ends_in(const std::string& path, const char* ending) {
 }
 
 const FormatRow& choose(const ExportConfig& config) {
-  if (config.format.empty() && ends_in(config.output, "svdag"))
-    fail_usage(config.output + ": to write the .svdag of SymVox, add --format symvox");
+  const bool to_dag = config.format.empty() && ends_in(config.output, "svdag");
+  if (to_dag && !ends_in(config.file, "svdag") && !ends_in(config.file, "pack"))
+    fail_usage(config.file + " is not named .svdag: svdag import reads other formats");
+  if (to_dag) fail_usage(config.output + ": to write the .svdag of SymVox, add --format symvox");
   std::string names;
   for (const FormatRow& row : kFormats) {
     const bool chosen = config.format.empty() ? ends_in(config.output, row.format.ending)
@@ -148,7 +150,7 @@ std::string surface_text(const ExportResult& result) {
 
 // ", 1,234 colours as 255, off by at most 9.4 of 255 steps" of a palette, else nothing.
 std::string palette_text(const ExportResult& result) {
-  if (!result.palette) return {};
+  if (!result.palette || result.palette->colours == 0) return {};
   std::array<char, 32> error;
   std::snprintf(error.data(), error.size(), "%.1f", result.palette->largest_error);
   return ", " + format_count(result.palette->colours) + " colours as " +

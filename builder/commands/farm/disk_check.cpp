@@ -15,7 +15,7 @@ void check_disk(const std::string& folder, uint64_t bytes, const std::string& wh
   const std::string need = who + " is predicted to write about " + format_bytes(bytes) +
                            " here, and only " + format_bytes(free) + " is free";
   if (bytes / 2 > free) throw Error(ExitCode::kOutput, need + ": free disk space first", folder);
-  std::fprintf(stderr, "svdag: %s: %s\n", printable(folder).c_str(), need.c_str());
+  std::fprintf(stderr, "svdag: %s: warning: %s\n", printable(folder).c_str(), need.c_str());
 }
 
 }  // namespace svdag

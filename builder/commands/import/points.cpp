@@ -16,7 +16,8 @@ PointVoxels::PointVoxels(std::vector<PointInput> inputs, const PointChoice& choi
   const std::optional<Grid> own = inputs_.size() == 1 ? inputs_[0].cloud->grid : std::nullopt;
   const bool is_own = own && !has_size && !has_levels;
   if (has_size == has_levels && !is_own)
-    fail_usage("points need a voxel size or a resolution: give -s or -r, not both");
+    fail_usage(std::string("points need a voxel size or a resolution: give -s or -r") +
+               (has_size ? ", not both" : ""));
   const bool has_colours = choice.with_colours && std::ranges::all_of(inputs_, [](const auto& i) {
                              return i.cloud->has_colours;
                            });

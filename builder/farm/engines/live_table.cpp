@@ -96,6 +96,10 @@ void LiveTable::finish(const std::vector<StepRow>& rows) {
     cpu += row.receipt->cpu;
     memory = std::max(memory, row.receipt->memory);
   }
+  if (done_before == rows.size()) {
+    std::printf("all %zu steps were done before\n", done_before);
+    return;
+  }
   const std::string before =
       done_before == 0 ? "" : " (" + std::to_string(done_before) + " already done)";
   std::printf(

@@ -263,6 +263,8 @@ Plan load_plan(const std::string& folder, bool with_bins) {
   std::string index_hash;
   try {
     parse(text, &plan, &index_hash);
+  } catch (const Json::parse_error& error) {
+    throw Error(ExitCode::kBadInput, "is damaged: it is not valid JSON", path, error.byte);
   } catch (const Json::exception& error) {
     fail_input(path, std::string("is damaged: ") + error.what());
   } catch (const Error& error) {

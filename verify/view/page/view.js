@@ -249,7 +249,7 @@ class Viewer {
     if (this.tiles.sets.length !== this.setCount) this.setLayers();
     const {tiles} = this;
     this.status.textContent = `${(1000 * seconds).toFixed(0)} ms a picture, ${this.tracer.width} x ${this.tracer.height}; ` +
-      `${megabytes(tiles.bytes)} loaded; ${tiles.count} tiles, ${megabytes(tiles.usedBytes)} of ${megabytes(this.budget)}` +
+      `${megabytes(tiles.bytes)} loaded; ${tiles.count} ${tiles.count === 1 ? 'tile' : 'tiles'}, ${megabytes(tiles.usedBytes)} of ${megabytes(this.budget)}` +
       (tiles.full ? '; more detail does not fit in this memory' : this.pending ? '; loading' : '');
   }
 
