@@ -1,5 +1,5 @@
-// The words that svdag_layer() and svdag_colour() of shaders/svdag.glsl read besides the file. Word k < 20 is the position
-// of a table among them: 0 that of the layers, k the counts of colours of level k.
+// The words that svdag_layer() and svdag_colour() of shaders/svdag.glsl read besides the file. Word k < 19 is the
+// position of a table among them: 0 that of the layers, k the counts of colours of level k.
 #pragma once
 
 #include <svdag/io/dag/colours/dag_colours.h>
@@ -7,7 +7,7 @@
 #include <vector>
 
 inline std::vector<uint32_t> gpu_tables(const svdag::DagFile& file) {
-  std::vector<uint32_t> words(20);
+  std::vector<uint32_t> words(svdag::kMaxSections);
   if (!file.layers().layers.empty()) {
     const svdag::LayerIndex index = file.layer_index();
     words[0] = uint32_t(words.size());
@@ -18,7 +18,7 @@ inline std::vector<uint32_t> gpu_tables(const svdag::DagFile& file) {
   if (file.has_colours()) {
     svdag::MemoryBudget memory;
     const svdag::DagColours colours(file, &memory);
-    for (uint32_t k = 1; k < 20; ++k) {
+    for (uint32_t k = 1; k < svdag::kMaxSections; ++k) {
       const svdag::LevelCounts& counts = colours.view().counts.levels[k];
       if (counts.counts == nullptr) continue;
       words[k] = uint32_t(words.size());

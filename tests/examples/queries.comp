@@ -1,5 +1,5 @@
-// Point, box, layer and colour queries at a voxel per pixel of examples/vulkan/trace.comp, whose buffers and pixels it
-// uses; a box of a side of 1 to 64 voxels on each axis begins at the voxel.
+// Point, box, layer and colour queries at random voxels, one per pixel, with the buffers of examples/vulkan/trace.comp. A
+// box of 1 to 64 voxels on each axis begins at the voxel.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -8,7 +8,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #define SVDAG_BINDING 0
 #include "svdag/shaders/svdag.glsl"
 
-struct Pixel {
+struct Query {
   ivec3 voxel;
   uint found;  // bit 0: the voxel is set, bit 1: the box has a voxel
   uint layer, colour;
@@ -19,7 +19,7 @@ layout(set = 0, binding = 1) buffer Picture {
   ivec4 eye;
   vec4 inside;
   ivec4 size, limbs[3][3];
-  Pixel pixels[];
+  Query pixels[];
 };
 
 uint random(uint v) {  // pcg
@@ -41,5 +41,5 @@ void main() {
   layer = svdag_layer(dag, voxel);
   colour = svdag_colour(dag, voxel);
 #endif
-  pixels[i] = Pixel(voxel, found, layer, colour, sides, uint(svdag_empty_side(dag, 0, 0u, voxel)));
+  pixels[i] = Query(voxel, found, layer, colour, sides, uint(svdag_empty_side(dag, 0, 0u, voxel)));
 }
