@@ -28,8 +28,8 @@
 // Precision without doubles: a float over a grid of 64K^3 is exact to 2^-8 voxel, which shows in pictures. So a ray has
 // an anchor close to the cell: a time `begin`, at which its position is an integer `base` plus a `start` below 4. begin
 // has 12 significant bits and a direction is divided into integers of 11, 9 and 18 bits, so that their products are
-// exact in floats. The anchor is renewed every 64 voxels or so. Positions relative to it err by less than 2^-16 voxel,
-// on every grid. Only pixels on an edge of a voxel may show its neighbour.
+// exact in floats. The anchor is renewed every 64 voxels or so (in larger grids, at 1/1000 of the time), so that at
+// 64K^3 positions err by about 2^-16 voxel. Only a ray that passes an edge so closely may hit the neighbouring voxel.
 #ifndef SVDAG_GLSL
 #define SVDAG_GLSL
 

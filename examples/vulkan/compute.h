@@ -23,16 +23,13 @@ class Compute {
     const vk::MemoryRequirements needs = buffer.getMemoryRequirements();
     using Flag = vk::MemoryPropertyFlagBits;
     const vk::MemoryPropertyFlags seen = Flag::eHostVisible | Flag::eHostCoherent;
-    const auto properties = gpu_.getMemoryProperties();
-    const auto type_with = [&](vk::MemoryPropertyFlags flags) {
-      uint32_t i = 0;
-      while (i < properties.memoryTypeCount &&
-             !(needs.memoryTypeBits >> i & 1 && (properties.memoryTypes[i].propertyFlags & flags) == flags))
-        ++i;
-      return i;
-    };
-    const uint32_t own = type_with(seen | Flag::eDeviceLocal);
-    const uint32_t type = own < properties.memoryTypeCount ? own : type_with(seen);
+    const auto types = gpu_.getMemoryProperties().memoryTypes;
+    uint32_t type = 0;
+    for (uint32_t i = 32, best = 0; i-- > 0;) {
+      if (!(needs.memoryTypeBits >> i & 1) || (types[i].propertyFlags & seen) != seen) continue;
+      const uint32_t value = types[i].propertyFlags & Flag::eDeviceLocal ? 2 : 1;
+      if (value >= best) type = i, best = value;
+    }
     vk::raii::DeviceMemory memory(device_, vk::MemoryAllocateInfo(needs.size, type));
     buffer.bindMemory(*memory, 0);
     void* const data = memory.mapMemory(0, bytes);
@@ -73,7 +70,8 @@ class Compute {
     commands[0].bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout, 0, *sets[0], {});
     commands[0].dispatch(x, y, 1);
     const vk::MemoryBarrier written(vk::AccessFlagBits::eShaderWrite, vk::AccessFlagBits::eHostRead);
-    commands[0].pipelineBarrier(vk::PipelineStageFlagBits::eComputeShader, vk::PipelineStageFlagBits::eHost, {}, written, {}, {});
+    using Stage = vk::PipelineStageFlagBits;
+    commands[0].pipelineBarrier(Stage::eComputeShader, Stage::eHost, {}, written, {}, {});
     commands[0].end();
     const vk::raii::Queue queue = device_.getQueue(family_, 0);
     queue.submit(vk::SubmitInfo({}, {}, *commands[0]));
