@@ -11,6 +11,7 @@
 #              Description: the same bytes
 #   test-python  the Python package, from its wheel in an environment of its own
 #   test-view  the viewer in a headless Chromium, against the tracer
+#   test-vulkan  the shader for engines and its example on Mesa's software Vulkan, against the tracer
 #   stress  the long forms: TSan, every compiler and flag, the packages in a clean Debian, the report's
 #           page in Chromium, fuzzers; hours (or some of it: STAGES="tsan families")
 #   fuzz-long  10^8 executions of each fuzzer (or of FUZZERS="ply run"), some nights of two cores;
@@ -48,6 +49,7 @@ FARM_PACKAGES = slurm-wlm munge
 PYTHON_PACKAGES = python3-dev
 WHEEL_TOOLS = "scikit-build-core>=0.10" "nanobind>=2.0"
 VIEW_PACKAGES = chromium
+VULKAN_PACKAGES = libvulkan-dev mesa-vulkan-drivers glslang-tools
 BENCH_PACKAGES = python3-matplotlib
 STRESS_PACKAGES = clang libclang-rt-14-dev llvm chromium debootstrap fish zsh
 
@@ -55,7 +57,7 @@ PRESET = release
 PROGRAMS = build/$(PRESET)
 PYTHON = /usr/bin/python3 -B
 
-.PHONY: all deps build demo test test-sanitized test-farm test-python test-view stress fuzz-long bench bench-before bench-giants bench-sort \
+.PHONY: all deps build demo test test-sanitized test-farm test-python test-view test-vulkan stress fuzz-long bench bench-before bench-giants bench-sort \
   bench-out-of-core bench-cache bench-accuracy bench-plan bench-vdb bench-trace bench-cuda bench-size bench-layers bench-colour bench-solid bench-exchange bench-python bundle wheel deb cuda \
   pictures clean
 all: build
@@ -117,6 +119,10 @@ wheel: build
 test-view: build
 	$(call install,$(VIEW_PACKAGES))
 	@$(PYTHON) tests/view/view_test.py $(PROGRAMS)
+
+test-vulkan: build
+	$(call install,$(VULKAN_PACKAGES))
+	@$(PYTHON) tests/examples/vulkan_test.py $(PROGRAMS)
 
 stress: deps
 	$(call install,$(STRESS_PACKAGES))

@@ -90,6 +90,7 @@ ALLOWED = {
     "verify/trace/judge": STREAMING + ["io", "io/scene/cutouts", *DAG, "verify/trace/kernel"],
     "verify/trace/program": STREAMING + ["io", *DAG, "io/help", "verify/trace/kernel", "verify/trace"],
     "python": STREAMING + ["io", *DAG, "builder/import", "verify/trace/kernel"],
+    "shaders": [],
     "verify/commands": STREAMING + ["io", *DAG, "io/scene", "io/help"] + FORMATS + VERIFY + TRACE,
 }
 
@@ -144,7 +145,8 @@ LIBRARIES = {
     r"zlib": r"io/formats/voxels/zip\.cpp|io/scene/decoders/gzip\.cpp|verify/view/tile_file\.cpp|tests/io/scene/(decoders/gzip_test\.cpp|(png|zip)_file\.h)",
     r"httplib": r"verify/view/server\.cpp",
     r"draco/": r"io/scene/decoders/draco\.cpp|tests/.*",
-    r"stb_?|stb/": r"verify/trace/image\.cpp|io/scene/decoders/image\.cpp|tests/(io/scene/decoders/image_test|scenes/textures)\.cpp",
+    r"vulkan/": r"examples/vulkan/compute\.h",
+    r"stb_?|stb/": r"examples/vulkan/main\.cpp|verify/trace/image\.cpp|io/scene/decoders/image\.cpp|tests/(io/scene/decoders/image_test|scenes/textures)\.cpp",
     r"stxxl/": r"tests/bench/peers/stxxl\.cpp",
     r"png\.h|jpeglib\.h": r"verify/colours/image_decoders\.cpp",
     r"CGAL/": r"verify/judge/judge_cgal\.cpp|tests/bench/peers/cgal\.cpp",
@@ -166,7 +168,7 @@ TYPE = re.compile(r"(?:template ?<.*> ?)?(?:enum class|enum struct|enum|struct|c
                   r"(?:alignas ?\([^)]*\) |\[\[.*?\]\] )*([\w:]+(?: ?<.*>)?)(?: final)?(?: ?:[^:].*)?")
 
 COMMENT = {".h": r"//[^\n]*", ".py": r'#[^\n]*|"""(?:.*?)"""', ".sh": r"#[^\n]*", ".md": r".*"}
-COMMENT[".cpp"] = COMMENT[".cu"] = COMMENT[".h"]
+COMMENT[".cpp"] = COMMENT[".cu"] = COMMENT[".glsl"] = COMMENT[".comp"] = COMMENT[".h"]
 FILE_NAME = re.compile(r"(?<![\w./*{}$<>-])(?:[\w-]+/)+[\w-]+\.(?:h|cpp|cu|py|sh|md)\b(?![/\w])")
 
 
@@ -179,7 +181,7 @@ def forbidden_includes(path, text):
     """Messages about the forbidden includes of one file."""
     found = []
     folder = folder_of(path)
-    if folder is None and not path.startswith("tests/"):
+    if folder is None and not path.startswith(("tests/", "examples/")):
         found.append(f"{path}: the folder is not in ALLOWED")
     for line in text.splitlines():
         include = re.match(r'\s*#\s*include\s*(["<])([^">]+)[">]', line)
@@ -202,9 +204,9 @@ def forbidden_includes(path, text):
 
 
 def sources():
-    for top in ["streaming", "io", "builder", "verify", "python", "tests"]:
+    for top in ["streaming", "io", "builder", "verify", "python", "shaders", "examples", "tests"]:
         for path in sorted((ROOT / top).rglob("*")):
-            if path.suffix in (".h", ".cpp", ".cu"):
+            if path.suffix in (".h", ".cpp", ".cu", ".glsl", ".comp"):
                 yield str(path.relative_to(ROOT)), path.read_text()
 
 

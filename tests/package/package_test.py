@@ -177,8 +177,9 @@ class Package(unittest.TestCase):
         self.require_links(held)
         held = run("dpkg-deb", "-c", packages["libsvdag-dev"])
         self.assertIn("./usr/lib/cmake", held.replace("/x86_64-linux-gnu", ""))
-        for path in ("format.md", "engine.md", "examples/reader/CMakeLists.txt", "examples/reader/cast_ray.cpp"):
+        for path in ("format.md", "engine.md", "examples/reader/CMakeLists.txt", "examples/reader/cast_ray.cpp", "examples/vulkan/main.cpp"):
             self.assertIn(f"./usr/share/doc/libsvdag-dev/{path}\n", held)
+        self.assertIn("./usr/include/svdag/shaders/svdag.glsl\n", held)
 
     def require_links(self, held):
         """Links in packaged pages lead to files of the package, except for links to sources."""
