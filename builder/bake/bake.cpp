@@ -317,9 +317,11 @@ BuildReport bake_resumably(const BuildConfig& config, Executor* executor, Progre
   Workspace workspace(ScratchDir::path_for(config.output, config.scratch), config.memory,
                       executor->workers());
   SpillSpace vertices = workspace.vertices();
-  const Scene scene(config.scene, workspace.budget(), &vertices);
+  ContentHashes hashed;
+  Scene scene(config.scene, workspace.budget(), &vertices);
+  scene.hash_reads(&hashed);
   const Scene described(described_scene(config), workspace.budget());
-  Description description(config, described);
+  Description description(config, described, &hashed);
   Checkpoint checkpoint(&workspace);
   DiskNeed disk_need(workspace.scratch());
   auto saved =

@@ -13,15 +13,14 @@ namespace {
 
 constexpr const char* kAlgorithm = "3";  // changes when nodes or bricks of any scene would
 
-std::string hash_of(const File& file) {
-  ByteStream stream(file);
-  Hasher128 hasher;
+std::string hash_of(const File& file, ContentHash* hash) {
+  ByteStream stream(file, hash->size());
   for (auto bytes = stream.peek(); !bytes.empty(); bytes = stream.peek()) {
     check_interrupt();
-    hasher.update(bytes);
+    hash->add(stream.offset(), bytes);
     stream.skip(bytes.size());
   }
-  return to_hex(hasher.digest());
+  return to_hex(hash->digest());
 }
 
 // So that two texts never look the same, whatever is in them, and each stays on its line.
@@ -108,10 +107,10 @@ void describe_files(const std::vector<SceneFile>& files, std::ostream* out) {
 
 }  // namespace
 
-std::vector<SceneFile> scene_files(const Scene& scene) {
+std::vector<SceneFile> scene_files(const Scene& scene, ContentHashes hashed) {
   std::vector<SceneFile> files;
   scene.visit_files([&](const File& file) {
-    files.push_back({file.path(), file.size(), hash_of(file)});
+    files.push_back({file.path(), file.size(), hash_of(file, &hashed[file.path()])});
   });
   return files;
 }
@@ -171,7 +170,7 @@ bool is_of_this_algorithm(const std::string& description) {
 const std::vector<SceneFile>& Description::files() {
   if (files_.empty()) {
     if (watch_.empty()) watch_files();
-    std::vector<SceneFile> files = scene_files(scene_);
+    std::vector<SceneFile> files = scene_files(scene_, std::move(*hashed_));
     check_files();
     files_ = std::move(files);
   }

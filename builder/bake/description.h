@@ -12,8 +12,8 @@
 
 namespace svdag {
 
-// The files of a scene. Reads all of them once, for their hashes.
-std::vector<SceneFile> scene_files(const Scene& scene);
+// The files of a scene. Reads what is not hashed of them.
+std::vector<SceneFile> scene_files(const Scene& scene, ContentHashes hashed = {});
 
 // The scene as the description has it: with the images of colours.
 SceneConfig described_scene(const BuildConfig& config);
@@ -35,11 +35,13 @@ bool describes(const std::string& description, Rule rule, const Grid& grid);
 // gives the same bytes.
 bool is_of_this_algorithm(const std::string& description);
 
-// The description and files of one bake. Hashes require reading the whole scene, so they are
+// The description and files of one bake. Hashes may require reading the whole scene, so they are
 // computed on demand and once; Error if the scene has changed since the bake read it.
 class Description {
  public:
-  Description(const BuildConfig& config, const Scene& scene) : config_(config), scene_(scene) {}
+  // `hashed`: what the bake read of the files, since watch_files().
+  Description(const BuildConfig& config, const Scene& scene, ContentHashes* hashed)
+      : config_(config), scene_(scene), hashed_(hashed) {}
 
   // Records the state of the scene's files; call before the scene is read.
   void watch_files() { watch_ = scene_.watch(); }
@@ -55,6 +57,7 @@ class Description {
  private:
   const BuildConfig& config_;
   const Scene& scene_;
+  ContentHashes* hashed_;
   InputWatch watch_;
   std::vector<SceneFile> files_;
   bool changed_ = false;

@@ -9,9 +9,10 @@
 namespace svdag {
 namespace {
 
-// Changes when any record does, those of builder/split/bin_record.h included. Journals without a
-// layout begin with the length of their description instead, a text of several lines.
-constexpr uint32_t kLayout = 9;
+// Changes when any record does, those of builder/split/bin_record.h included, or the code of bins.
+// Journals without a layout begin with the length of their description instead, a text of several
+// lines.
+constexpr uint32_t kLayout = 10;
 
 // Writes a field in a form without padding or bool.
 struct PutField {

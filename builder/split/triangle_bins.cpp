@@ -13,13 +13,17 @@
 namespace svdag {
 namespace {
 
-constexpr size_t kMaxTriangleBytes = 110 + sizeof(TextureCorners);  // eleven numbers of 10 bytes
+// 14 numbers of 10 bytes: distances, differences, kind and material.
+constexpr size_t kMaxTriangleBytes = 140 + sizeof(TextureCorners);
 
-uint8_t* put(int64_t value, uint8_t* out) {
-  uint64_t code = uint64_t(value) << 1 ^ uint64_t(value >> 63);
+uint8_t* put_code(uint64_t code, uint8_t* out) {
   for (; code >= 0x80; code >>= 7) *out++ = uint8_t(code | 0x80);
   *out++ = uint8_t(code);
   return out;
+}
+
+uint8_t* put(int64_t value, uint8_t* out) {
+  return put_code(uint64_t(value) << 1 ^ uint64_t(value >> 63), out);
 }
 
 }  // namespace
@@ -72,26 +76,43 @@ void TriangleBins::append(const Cube& cube, const LatticeTriangle& triangle, con
                           const LatticeBox& box) {
   OpenBin& bin = bins_[morton(cube.coordinate) % bins_.size()];
   if (!bin.writer) {
+    const int size_log2 = VertexFinder::size_log2(*scratch_->budget());
+    bin.vertices.emplace(size_log2, scratch_->budget());
     bin.writer.emplace(file_, scratch_->new_streams(), scratch_->budget());
     bin.box = box;
+    const auto byte = std::byte(size_log2);
+    write(&bin, {&byte, 1});
   }
   bin.box.add(box);
   uint8_t bytes[kMaxTriangleBytes];
   uint8_t* end = bytes;
-  for (int a = 0; a < 3; ++a) end = put(triangle.v[0][a], end);
-  for (int i = 1; i < 3; ++i) {
-    for (int a = 0; a < 3; ++a) end = put(triangle.v[size_t(i)][a] - triangle.v[0][a], end);
-  }
+  const VertexRing& vertices = bin.vertices->ring();
   const int64_t kind = 4 * int64_t(triangle.subject) + triangle.sheet;
-  end = put(cut == nullptr ? kind : ~kind, end);
-  if (cut != nullptr) {
-    end = put(cut->material, end);
-    std::memcpy(end, &cut->corners, sizeof cut->corners);
-    end += sizeof cut->corners;
+  const bool is_kind_stored = kind != bin.kind || cut != nullptr;
+  LatticePoint before = vertices.count() > 0 ? vertices[1] : LatticePoint(0);
+  for (size_t i = 0; i < 3; ++i) {
+    const uint64_t distance = bin.vertices->find_or_add(triangle.v[i]);
+    end = put_code(i == 0 ? 2 * distance + is_kind_stored : distance, end);
+    if (i == 0 && is_kind_stored) {
+      end = put(cut == nullptr ? kind : ~kind, end);
+      if (cut != nullptr) {
+        end = put(cut->material, end);
+        std::memcpy(end, &cut->corners, sizeof cut->corners);
+        end += sizeof cut->corners;
+      }
+    }
+    for (int a = 0; distance == 0 && a < 3; ++a)
+      end = put(int64_t(uint64_t(triangle.v[i][a]) - uint64_t(before[a])), end);
+    before = triangle.v[i];
   }
-  bin.writer->append(std::as_bytes(std::span(bytes, size_t(end - bytes))));
-  bytes_ += uint64_t(end - bytes);
+  bin.kind = kind;
+  write(&bin, std::as_bytes(std::span(bytes, size_t(end - bytes))));
   ++bin.triangles;
+}
+
+void TriangleBins::write(OpenBin* bin, std::span<const std::byte> bytes) {
+  bin->writer->append(bytes);
+  bytes_ += bytes.size();
 }
 
 std::vector<TriangleBin> TriangleBins::finish() {
@@ -104,6 +125,7 @@ std::vector<TriangleBin> TriangleBins::finish() {
     bins.push_back(
         {shrink(cube, bin), morton_range(cube, grid_.levels), bin.triangles, bin.writer->finish()});
     bin.writer.reset();
+    bin.vertices.reset();
   }
   return bins;
 }
@@ -151,7 +173,10 @@ bool on_lattice(const LatticeTriangle& t) noexcept {
 
 BinReader::BinReader(SpillFile* file, const TriangleBin& bin, MemoryBudget* budget,
                      size_t materials)
-    : reader_(file, bin.stream, budget), left_(bin.triangles), materials_(materials) {}
+    : reader_(file, bin.stream, budget),
+      budget_(budget),
+      left_(bin.triangles),
+      materials_(materials) {}
 
 uint8_t BinReader::read_byte() {
   if (at_ == end_) {
@@ -163,15 +188,30 @@ uint8_t BinReader::read_byte() {
   return *at_++;
 }
 
-int64_t BinReader::read_number() {
+uint64_t BinReader::read_code() {
   uint64_t code = 0;
   for (int shift = 0;; shift += 7) {
     if (shift > 63) reader_.fail_damaged();
     const uint8_t b = read_byte();
     code |= uint64_t(b & 0x7f) << shift;
-    if (b < 0x80) break;
+    if (b < 0x80) return code;
   }
+}
+
+int64_t BinReader::read_number() {
+  const uint64_t code = read_code();
   return int64_t(code >> 1) ^ -int64_t(code & 1);
+}
+
+LatticePoint BinReader::read_corner(uint64_t distance, const LatticePoint& before) {
+  if (distance > 0) {
+    if (!vertices_->holds(distance)) reader_.fail_damaged();
+    return (*vertices_)[distance];
+  }
+  LatticePoint p;
+  for (int a = 0; a < 3; ++a) p[a] = int64_t(uint64_t(before[a]) + uint64_t(read_number()));
+  vertices_->add(p);
+  return p;
 }
 
 CutRecord BinReader::read_cut() {
@@ -190,21 +230,29 @@ CutRecord BinReader::read_cut() {
 
 bool BinReader::read(size_t max_count, std::vector<LatticeTriangle>* out, CutRecords* cuts) {
   if (left_ == 0) return false;
+  if (!vertices_) {
+    const int size_log2 = read_byte();
+    if (size_log2 < VertexRing::kMinLog2 || size_log2 > VertexRing::kMaxLog2)
+      reader_.fail_damaged();
+    vertices_.emplace(size_log2, budget_);
+  }
   for (; max_count > 0 && left_ > 0; --max_count, --left_) {
     LatticeTriangle& t = out->emplace_back();
-    for (int a = 0; a < 3; ++a) t.v[0][a] = read_number();
-    for (size_t i = 1; i < 3; ++i) {
-      for (int a = 0; a < 3; ++a)
-        t.v[i][a] = int64_t(uint64_t(t.v[0][a]) + uint64_t(read_number()));
+    const uint64_t code = read_code();
+    if ((code & 1) != 0) {
+      kind_ = read_number();
+      if (kind_ < 0) {
+        kind_ = ~kind_;
+        t.cut = add_record(read_cut(), cuts) & kMaxCut;
+      }
+      if (kind_ > 4 * int64_t(kMaxLayers) + 3) reader_.fail_damaged();
     }
-    int64_t kind = read_number();
-    if (kind < 0) {
-      kind = ~kind;
-      t.cut = add_record(read_cut(), cuts) & kMaxCut;
-    }
-    if (!on_lattice(t) || kind < 0 || kind > 4 * int64_t(kMaxLayers) + 3) reader_.fail_damaged();
-    t.subject = uint32_t(kind >> 2);
-    t.sheet = uint32_t(kind) & kSheets;
+    const LatticePoint newest = vertices_->count() > 0 ? (*vertices_)[1] : LatticePoint(0);
+    t.v[0] = read_corner(code >> 1, newest);
+    for (size_t i = 1; i < 3; ++i) t.v[i] = read_corner(read_code(), t.v[i - 1]);
+    if (!on_lattice(t)) reader_.fail_damaged();
+    t.subject = uint32_t(kind_ >> 2);
+    t.sheet = uint32_t(kind_) & kSheets;
   }
   return true;
 }

@@ -10,7 +10,7 @@
 namespace svdag {
 namespace {
 
-constexpr uint64_t kBytesPerTriangle = 48;  // of small ones in bins, with copies at borders
+constexpr uint64_t kBytesPerTriangle = 24;  // of a mesh in bins, with copies at borders
 constexpr double kMinShare = 0.2;           // share of the work from which the rest is estimated
 
 }  // namespace

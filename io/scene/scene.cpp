@@ -194,7 +194,8 @@ LeftOut Scene::read_pose(const PoseTime* time, std::string_view frame, const Nam
     const std::string name = base_name(path);
     const bool by_name = !names.include.empty() && names.includes(PartKind::kFile, name);
     if (names.excludes(PartKind::kFile, name)) continue;
-    const File packed = File::open_read(path);
+    File packed = File::open_read(path);
+    if (hashes_ != nullptr) packed.hash_reads(&(*hashes_)[path]);
     const File& file = content_of(packed);
     FiniteFilter filter(path, frame, config_, sink, counts);
     const TriangleSink filtered = std::ref(filter);

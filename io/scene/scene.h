@@ -13,6 +13,7 @@
 #include "io/scene/cutouts/alpha_images.h"
 #include "io/scene/frame_range.h"
 #include "io/scene/mesh/mesh_reader.h"
+#include "streaming/file/content_hash.h"
 #include "streaming/file/input_watch.h"
 
 namespace svdag {
@@ -64,6 +65,9 @@ class Scene {
   // Opens nothing yet. `budget` and `spill` (io/scene/mesh/mesh_reader.h) must outlive the scene.
   Scene(SceneConfig config, MemoryBudget* budget, const SpillSpace* spill = nullptr);
 
+  // Hashes the files as they are read from here on; `hashes` must outlive the scene.
+  void hash_reads(ContentHashes* hashes) { hashes_ = hashes; }
+
   // Reads everything once. NaN and infinity are an Error naming file, mesh and triangle, unless
   // skip_invalid. A pattern that matches no name is an Error (kUsage) with the nearest names,
   // unless allow_unmatched. An unknown or broken file is an Error (kBadInput).
@@ -98,6 +102,7 @@ class Scene {
   SceneConfig config_;
   MemoryBudget* budget_;
   const SpillSpace* spill_;
+  ContentHashes* hashes_ = nullptr;
   mutable std::map<std::string, File> unpacked_;  // by path
   mutable AlphaImages alpha_;
   mutable LinearImages images_;

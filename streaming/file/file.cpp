@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "streaming/file/content_hash.h"
 #include "streaming/file/system_call.h"
 
 namespace svdag {
@@ -154,6 +155,7 @@ File File::create_anonymous(const std::string& folder, const std::string& shown_
 File::File(File&& other) noexcept
     : fd_(std::exchange(other.fd_, -1)),
       unreadable_(other.unreadable_),
+      hash_(other.hash_),
       path_(std::move(other.path_)),
       temporary_(std::exchange(other.temporary_, {})) {}
 
@@ -162,6 +164,7 @@ File& File::operator=(File&& other) noexcept {
     discard();
     fd_ = std::exchange(other.fd_, -1);
     unreadable_ = other.unreadable_;
+    hash_ = other.hash_;
     path_ = std::move(other.path_);
     temporary_ = std::exchange(other.temporary_, {});
   }
@@ -185,6 +188,11 @@ uint64_t File::size() const {
 }
 
 size_t File::read_some_at(uint64_t offset, std::span<std::byte> out) const {
+  constexpr uint64_t kMaxGap = uint64_t(1) << 16;  // that is read for the hash: a header
+  if (hash_ != nullptr && offset > hash_->size() && offset - hash_->size() <= kMaxGap) {
+    std::vector<std::byte> gap(size_t(offset - hash_->size()));
+    read_some_at(hash_->size(), gap);
+  }
   size_t done = 0;
   while (done < out.size()) {
     const ssize_t n = retry_interrupted(
@@ -194,6 +202,7 @@ size_t File::read_some_at(uint64_t offset, std::span<std::byte> out) const {
     if (n == 0) break;
     done += size_t(n);
   }
+  if (hash_ != nullptr) hash_->add(offset, out.first(done));
   return done;
 }
 

@@ -20,6 +20,8 @@
 
 namespace svdag {
 
+class ContentHash;
+
 class File {
  public:
   // Opens a regular file for reading. Rejects folders, devices and pipes (kBadInput), and "-"
@@ -55,6 +57,8 @@ class File {
   // Like read_at(), but returns the number of bytes read: less than out.size() only at the end of
   // the file.
   size_t read_some_at(uint64_t offset, std::span<std::byte> out) const;
+  // Adds all bytes that are read from here on to `hash`, which must outlive the file.
+  void hash_reads(ContentHash* hash) { hash_ = hash; }
   // The whole content.
   std::string text() const;
   // Writes all `bytes` at byte `offset`; a gap before them reads as zeros.
@@ -86,6 +90,7 @@ class File {
 
   int fd_ = -1;
   ExitCode unreadable_ = ExitCode::kBadInput;  // of an Error when reading fails
+  ContentHash* hash_ = nullptr;
   std::string path_;
   std::string temporary_;  // name to unlink unless link_as() succeeds; empty: none
 };

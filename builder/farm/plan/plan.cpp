@@ -22,7 +22,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kPlanJson = "plan.json";
-constexpr int kFormat = 9;  // changes with the keys of plan.json and the contents of the index
+// Changes with the keys of plan.json and the contents of the index and the bins.
+constexpr int kFormat = 10;
 
 constexpr size_t kHashDigits = 32;
 

@@ -27,7 +27,7 @@ namespace {
 constexpr int kMaxBinLevel = 6;             // level of the cells
 constexpr uint64_t kBinsPerShard = 8;       // a shard reads up to 1/8 too much at each end
 constexpr uint64_t kMinLightBin = 4096;     // triangles: smaller bins waste blocks
-constexpr uint64_t kBytesPerTriangle = 40;  // in a bin
+constexpr uint64_t kBytesPerTriangle = 16;  // of a mesh in a bin
 constexpr size_t kMinBlockBytes = 1 << 14;
 constexpr uint64_t kMinDryRunBytes = 64 << 20;  // on the disk of the output
 
@@ -70,6 +70,7 @@ class Planner {
         workspace_(scratch_path(config), config.build.memory, 1),
         vertices_(workspace_.vertices()),
         scene_(config.build.scene, workspace_.budget(), &vertices_) {
+    scene_.hash_reads(&hashed_);
     clear_scratch();
   }
 
@@ -96,6 +97,7 @@ class Planner {
   Progress* progress_;
   Workspace workspace_;
   SpillSpace vertices_;
+  ContentHashes hashed_;  // of the scene's files
   Scene scene_;
   InputWatch inputs_;  // the scene's files
   std::unique_ptr<SpillFile> triangles_;
@@ -163,7 +165,7 @@ void Planner::read_scene() {
 }
 
 void Planner::describe_inputs(const Scene& described) {
-  const std::vector<SceneFile> files = scene_files(described);
+  const std::vector<SceneFile> files = scene_files(described, std::move(hashed_));
   plan_.description = describe(config_.build, files);
   for (const SceneFile& file : files)
     plan_.inputs.push_back({absolute_path(file.path), file.bytes, file.hash});

@@ -29,7 +29,8 @@ void Positions::append_chunk(uint64_t count) {
 }
 
 void Positions::spill() {
-  windows_ = std::make_unique<VertexWindows>(*options_.spill, options_.budget, single_);
+  spilled_ = true;
+  pages_ = std::make_unique<VertexPages>(*options_.spill, options_.budget, single_);
   for (uint64_t chunk = 0; chunk < size_ / kChunk; ++chunk) {
     hand_over(chunk, kChunk);
     (single_ ? singles_[chunk].reset() : doubles_[chunk].reset());
@@ -44,7 +45,15 @@ void Positions::spill() {
 void Positions::hand_over(uint64_t chunk, uint64_t count) {
   const auto bytes = single_ ? std::as_bytes(std::span(singles_[chunk].get(), size_t(3 * count)))
                              : std::as_bytes(std::span(doubles_[chunk].get(), size_t(3 * count)));
-  windows_->add(bytes);
+  windows_ ? windows_->add(bytes) : pages_->add(bytes);
+}
+
+void Positions::start_join(bool again) {
+  windows_.reset();  // its blocks are used again
+  auto windows = std::make_unique<VertexWindows>(*options_.spill, options_.budget, single_);
+  pages_->copy_to(windows.get(), again);
+  windows_ = std::move(windows);
+  if (!again) pages_.reset();
 }
 
 }  // namespace svdag

@@ -4,8 +4,8 @@
 // request more memory than the file has vertices, and growing never copies. The first chunk is no
 // larger than the reader's upper bound: small meshes take little. Positions that the file
 // stores as float are kept as float: half the memory, the same values. Positions beyond the share
-// that a SpillSpace grants move to a spill file, all of them, and corners get theirs by a join
-// (io/scene/polygons/mesh_writer.h).
+// that a SpillSpace grants move to pages in a spill file, all of them, where corners still look
+// theirs up; if that becomes costly, to windows for a join (io/scene/polygons/mesh_writer.h).
 // Rejected: std::vector (twice the memory while it grows, or trust in the header's count).
 #pragma once
 
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "io/scene/mesh/mesh_reader.h"
+#include "io/scene/mesh/vertex_pages.h"
 #include "io/scene/mesh/vertex_windows.h"
 #include "io/triangle.h"
 #include "streaming/memory/memory_budget.h"
@@ -51,14 +52,27 @@ class Positions {
   }
 
   // Whether the positions have left memory.
-  bool spilled() const { return windows_ != nullptr; }
+  bool spilled() const { return spilled_; }
+  // Spilled: whether they can be looked up.
+  bool paged() const { return spilled_ && !windows_; }
+  VertexPages& pages() { return *pages_; }
+  // Paged, `i` < size().
+  Point look_up(uint64_t i) {
+    const uint64_t handed_over = pages_->size();
+    if (i < handed_over) return (*pages_)[i];
+    return single_ ? fetch(singles_[0].get(), i - handed_over)
+                   : fetch(doubles_[0].get(), i - handed_over);
+  }
+  // Paged: moves the positions so far to windows; those to come follow. They stay in their pages,
+  // too, if this will be called again.
+  void start_join(bool again);
   VertexWindows& windows() { return *windows_; }
-  // Spilled, and all were added: all positions are in the windows.
-  void hand_over() { hand_over(0, size_ - windows_->size()); }
+  // Spilled, and all were added: all positions are in the pages or windows.
+  void hand_over() { hand_over(0, size_ - (windows_ ? windows_->size() : pages_->size())); }
 
  private:
   static constexpr uint64_t kChunk = 1 << 15;
-  static constexpr uint64_t kOutgoing = 1 << 9;  // positions passed to the windows at once
+  static constexpr uint64_t kOutgoing = 1 << 9;  // positions passed to the pages at once
   static constexpr const char* kPurpose = "vertex positions";
 
   void grow();
@@ -87,7 +101,9 @@ class Positions {
   MemoryBudget::Reservation reservation_;
   std::vector<std::unique_ptr<float[]>> singles_;
   std::vector<std::unique_ptr<double[]>> doubles_;
-  std::unique_ptr<VertexWindows> windows_;  // spilled: the chunk holds those not yet passed on
+  bool spilled_ = false;  // the only chunk holds the positions not yet passed on
+  std::unique_ptr<VertexPages> pages_;
+  std::unique_ptr<VertexWindows> windows_;
 };
 
 }  // namespace svdag

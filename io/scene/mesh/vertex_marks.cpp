@@ -41,7 +41,7 @@ bool VertexMarks::make(size_t chunk) {
   return true;
 }
 
-std::optional<Box> VertexMarks::box(VertexWindows* positions) const {
+std::optional<Box> VertexMarks::box(VertexPages* positions) const {
   if (full_) return {};
   CertainBox box;
   positions->visit([&](uint64_t i, const Point& p) {

@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-#include "io/scene/mesh/vertex_windows.h"
+#include "io/scene/mesh/vertex_pages.h"
 
 namespace svdag {
 
@@ -33,7 +33,7 @@ class VertexMarks {
            (chunks_[chunk][i % kChunk / 64] >> i % 64 & 1) != 0;
   }
   // Nothing if the marks do not determine the box.
-  std::optional<Box> box(VertexWindows* positions) const;
+  std::optional<Box> box(VertexPages* positions) const;
 
  private:
   static constexpr uint64_t kChunk = 1 << 13;  // vertices: 1 KiB

@@ -14,6 +14,14 @@ constexpr uint64_t kBlocksPerStream = 2;
 
 }  // namespace
 
+SpillFile* open_spill(const SpillSpace& space) {
+  SpillFile* const file = space.file();
+  if (space.share < 8 * kBlocksPerStream * file->block_bytes())
+    throw Error(ExitCode::kMemory,
+                "the memory budget is too small to spill the vertices of a mesh: raise --memory");
+  return file;
+}
+
 OwnedStream& OwnedStream::operator=(OwnedStream&& other) noexcept {
   std::swap(file_, other.file_);
   std::swap(stream_, other.stream_);
@@ -31,15 +39,12 @@ void fail_changed() {
 // The largest windows that leave memory for the references and the answers: large windows mean few
 // streams.
 VertexWindows::VertexWindows(const SpillSpace& space, MemoryBudget* budget, bool single)
-    : file_(space.file()),
+    : file_(open_spill(space)),
       new_number_(space.stream_number),
       budget_(budget),
       single_(single),
       position_bytes_(3 * (single ? sizeof(float) : sizeof(double))) {
   const uint64_t stream_bytes = kBlocksPerStream * file_->block_bytes();
-  if (space.share < 8 * stream_bytes)
-    throw Error(ExitCode::kMemory,
-                "the memory budget is too small to spill the vertices of a mesh: raise --memory");
   // References are 32 bits.
   const uint64_t fit = (space.share - 2 * stream_bytes) / position_bytes_;
   shift_ = std::min(int(std::bit_width(fit)) - 1, 32);

@@ -43,12 +43,23 @@ class OwnedStream {
   ~OwnedStream();
 
   bool empty() const { return file_ == nullptr; }
+  const SpillStream& stream() const { return stream_; }
   SpillReader read(MemoryBudget* budget) const { return SpillReader(file_, stream_, budget); }
 
  private:
   SpillFile* file_ = nullptr;
   SpillStream stream_;
 };
+
+// The file of the space; Error (kMemory) if the share is too small for it.
+SpillFile* open_spill(const SpillSpace& space);
+
+template <class T>
+Point load_point(const std::byte* p) {
+  std::array<T, 3> v;
+  std::memcpy(&v, p, sizeof v);
+  return {double(v[0]), double(v[1]), double(v[2])};
+}
 
 // Reports that a run over the same bytes found other corners or vertices than the previous one.
 [[noreturn]] void fail_changed();
@@ -72,17 +83,6 @@ class VertexWindows {
     const uint32_t local = uint32_t(i & (window() - 1));
     references_[w]->append(std::as_bytes(std::span(&local, 1)));
     return w;
-  }
-  // Every position was added: calls use(i, position) for each, in order.
-  template <class Use>
-  void visit(const Use& use) {
-    finish_window();
-    uint64_t i = 0;
-    for (const OwnedStream& window_positions : positions_) {
-      Cursor from;
-      for (const uint64_t end = std::min(i + window(), size_); i < end; ++i)
-        use(i, next_of(from, window_positions));
-    }
   }
   // Every position was added and every corner recorded.
   void join();
@@ -109,12 +109,6 @@ class VertexWindows {
   }
   Point point_at(const std::byte* p) const {
     return single_ ? load_point<float>(p) : load_point<double>(p);
-  }
-  template <class T>
-  static Point load_point(const std::byte* p) {
-    std::array<T, 3> v;
-    std::memcpy(&v, p, sizeof v);
-    return {double(v[0]), double(v[1]), double(v[2])};
   }
   SpillWriter new_stream() { return SpillWriter(file_, new_number_(), budget_); }
   void finish_window();

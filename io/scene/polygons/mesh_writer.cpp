@@ -150,7 +150,7 @@ void MeshWriter::end_mesh() {
   colour_memory_.release();
   points_ = nullptr;
   size_ = 0;
-  is_placed_ = joined_ = is_counted_ = false;
+  is_placed_ = joined_ = is_partly_paged_ = is_counted_ = false;
 }
 
 void MeshWriter::begin(Precision precision, uint64_t max_count, const Affine* only_place) {
@@ -187,6 +187,12 @@ bool MeshWriter::place(const Affine& to_world, double step) {
   if (!positions_) return true;  // placed as they came, or a soup
   to_world_ = to_world;
   is_placed_ = true;
+  if (is_partly_paged_) {  // this time all polygons are recorded
+    codes_stream_ = OwnedStream();
+    joined_ = is_partly_paged_ = false;
+    positions_->start_join(false);
+    return true;
+  }
   if (joined_) {
     replay();
     return false;
@@ -203,13 +209,19 @@ void MeshWriter::start_recording() {
   recording_ = true;
   corners_ = triangles_ = 0;
   const SpillSpace& space = *options_.spill;
-  const uint64_t room = space.share - space.share / 8;  // the rest is for blocks
-  if (options_.box_alone != nullptr && !is_placed_ && !is_counted_ && size_ / 8 <= room) {
-    marks_.emplace(options_.budget, room);
+  if (positions_->paged()) {
+    marks_.emplace(options_.budget, recording_room());
   } else {
     codes_out_.emplace(space.file(), space.stream_number(), options_.budget);
     codes_size_ = 0;
   }
+}
+
+// The vertices of a placed mesh may be needed for a further place.
+void MeshWriter::end_paged_polygon() {
+  if (!positions_->pages().is_costly()) return;
+  is_partly_paged_ = is_placed_;
+  positions_->start_join(is_placed_);
 }
 
 void MeshWriter::record_end() {
@@ -265,6 +277,11 @@ void MeshWriter::rare_triangle(uint64_t a, uint64_t b, uint64_t c) {
   if (!colours_.empty())
     return out_.add_textured({{stored(a), stored(b), stored(c)}}, TextureCorners(),
                              {colours_[a], colours_[b], colours_[c]});
+  if (!is_recorded()) {
+    const Point p = paged(a), q = paged(b), r = paged(c);
+    out_.add(p, q, r);
+    return end_paged_polygon();
+  }
   record(a);
   record(b);
   record(c);
@@ -277,7 +294,7 @@ void MeshWriter::finish_broken() {
 }
 
 void MeshWriter::draw_box() {
-  const auto box = marks_->box(&positions_->windows());
+  const auto box = marks_->box(&positions_->pages());
   if (!box) throw BoxIsUncertain();
   options_.box_alone->box.add(*box);
   options_.box_alone->triangles += triangles_;

@@ -2,12 +2,13 @@
 // polygons whose corners are numbers of vertices. Only this class looks vertices up and
 // triangulates.
 //
-// Vertices in memory are looked up at once. Beyond the share that a SpillSpace grants they are in
-// windows on disk (io/scene/mesh/vertex_windows.h): the corners are recorded, and when the mesh
-// ends a join brings their positions, polygon by polygon in the order of the file. The sink gets
-// the same triangles either way. The recording holds for each corner the number of its window, in a
-// polygon with a texture its coordinate, and between polygons the names that change: so a file is
-// read once.
+// Vertices are looked up at once, in memory or, beyond the share that a SpillSpace grants, in pages
+// on disk (io/scene/mesh/vertex_pages.h). If the polygons jump between the vertices so much that
+// this is costly, the vertices move to windows (io/scene/mesh/vertex_windows.h): from then on the
+// corners are recorded, and when the mesh ends a join brings their positions, polygon by polygon in
+// the order of the file. The sink gets the same triangles either way. The recording holds for each
+// corner the number of its window, in a polygon with a texture its coordinate, and between polygons
+// the names that change: so a file is read once.
 // Rejected: no recording, but running the reader's loop over the faces again (each reader must be
 // written for positions that it cannot see, and text is parsed twice).
 #pragma once
@@ -106,7 +107,8 @@ class MeshWriter {
     if (points_ != nullptr) return triangulator_.corner(points_[i]);
     if (!colours_.empty()) return triangulator_.corner(stored(i), colours_[i]);
     if (!positions_->spilled()) return triangulator_.corner(stored(i));
-    record(i);
+    if (is_recorded()) return record(i);
+    triangulator_.corner(paged(i));
   }
   // The same, of a polygon with all of its corners in the texture of cut_out() or paint().
   void corner(uint64_t i, const TexturePoint& texture) {
@@ -116,6 +118,7 @@ class MeshWriter {
   void corner(uint64_t i, const TexturePoint& texture, const VertexColour& colour) {
     if (points_ != nullptr) return triangulator_.corner(points_[i], texture, colour);
     if (!positions_->spilled()) return triangulator_.corner(stored(i), texture, colour);
+    if (!is_recorded()) return triangulator_.corner(paged(i), texture, colour);
     record_texture({texture, colour});
     record(i);
   }
@@ -123,6 +126,7 @@ class MeshWriter {
   void end_polygon() {
     if (recording_) return record_end();
     triangulator_.finish(out_);
+    if (positions_ && positions_->paged()) end_paged_polygon();
   }
   // A triangle without vertices, after begin_soup().
   void add(const Point& a, const Point& b, const Point& c) { out_.add(a, b, c); }
@@ -153,6 +157,20 @@ class MeshWriter {
     const Point p = (*positions_)[i];
     return is_placed_ ? to_world_(p) : p;
   }
+  // The same, of vertices in pages.
+  Point paged(uint64_t i) {
+    const Point p = positions_->look_up(i);
+    return is_placed_ ? to_world_(p) : p;
+  }
+  // Whether corners of spilled vertices are recorded: for the box, or because lookups are costly.
+  bool is_recorded() const { return recording_ || !positions_->paged() || wants_marks(); }
+  bool wants_marks() const {
+    return options_.box_alone != nullptr && !is_placed_ && !is_counted_ &&
+           size_ / 8 <= recording_room();
+  }
+  // The rest of the share is for blocks.
+  uint64_t recording_room() const { return options_.spill->share - options_.spill->share / 8; }
+  void end_paged_polygon();
   // Of coloured or spilled vertices. Not inline, so that the readers' loops are short.
   void rare_triangle(uint64_t a, uint64_t b, uint64_t c);
   bool fits(uint64_t bytes) const {
@@ -217,7 +235,8 @@ class MeshWriter {
 
   // Of spilled positions.
   bool recording_ = false;
-  bool joined_ = false;               // the recording is complete: it can be drawn again
+  bool joined_ = false;               // the recording was drawn
+  bool is_partly_paged_ = false;      // and polygons before it: the recording is not complete
   uint64_t corners_ = 0;              // of the polygon that is marked
   uint64_t first_two_[2] = {};        // its first corners: alone they are no triangle
   uint64_t triangles_ = 0;            // marked

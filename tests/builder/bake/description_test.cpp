@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <set>
 
 #include "tests/builder/bakes.h"
+#include "tests/soup.h"
 #include "tests/temp_folder.h"
 
 namespace svdag {
@@ -40,6 +42,34 @@ TEST(Description, HoldsTheGridTheRuleAndTheParts) {
   other = config;
   other.open_as_sheets = true;
   EXPECT_NE(difference(said, described(other)), "");
+}
+
+// A pass over a file in its order leaves nothing to read for the hash.
+TEST(Description, HashesThatReadersMadeAreThoseOfTheFiles) {
+  const TempFolder folder;
+  MemoryBudget budget(uint64_t(64) << 20);
+  const auto soup = random_soup(3000, 0.1, 1);
+  for (const char* name : {"scene.stl", "scene.obj", "scene.stl.gz"}) {
+    const std::string path = folder.file(name);
+    if (path.ends_with(".obj")) {
+      write(path, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n# the end\n");
+    } else {
+      write_stl(folder.file("scene.stl"), soup);
+      if (path.ends_with(".gz")) {
+        ASSERT_EQ(std::system(("gzip -kf " + folder.file("scene.stl")).c_str()), 0);
+      }
+    }
+    SceneConfig config;
+    config.paths = {path};
+    Scene scene(config, &budget);
+    const std::string expected = scene_files(scene).at(0).hash;
+    ContentHashes hashes;
+    scene.hash_reads(&hashes);
+    scene.bounds();
+    EXPECT_EQ(hashes.at(path).size(), std::filesystem::file_size(path)) << name;
+    scene.stream([](const TriangleBatch&) {});
+    EXPECT_EQ(scene_files(scene, std::move(hashes)).at(0).hash, expected) << name;
+  }
 }
 
 TEST(Description, PatternsAreNeverMistakenForOthers) {

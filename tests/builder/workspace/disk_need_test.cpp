@@ -25,7 +25,7 @@ TEST(DiskNeed, RefusesOnlyWhatIsCertainNotToFit) {
   need.expect_triangles(1000, 2000);  // they stay in memory
   EXPECT_EQ(need.estimate(), 0U);
   need.expect_triangles(100'000, 2000);
-  EXPECT_GT(need.estimate(), 100'000U * 30);
+  EXPECT_GT(need.estimate(), 100'000U * 15);
   EXPECT_SVDAG_ERROR(need.expect_triangles(free, 2000), ExitCode::kOutput, "only");
   need.expect_spilled(100'000, 1000, 300'000);  // 300 bytes each
   EXPECT_EQ(need.estimate(), 100'000U * 300);

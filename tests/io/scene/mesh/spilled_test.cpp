@@ -145,15 +145,36 @@ TEST(Spilled, TheBlocksOfAMeshAreFreeForTheNext) {
   }
 }
 
-// A file of `vertices` vertices and one triangle.
-std::string tall_off(uint64_t vertices) {
-  std::string text = "OFF\n" + std::to_string(vertices) + " 1 0\n";
-  for (uint64_t i = 0; i < vertices; ++i) text += "0 0 0\n";
-  return text + "3 0 1 2\n";
+// A file of `vertices` vertices and triangles of their numbers modulo that.
+std::string tall_off(uint64_t vertices, const std::vector<uint64_t>& corners = {0, 1, 2}) {
+  std::string text =
+      "OFF\n" + std::to_string(vertices) + " " + std::to_string(corners.size() / 3) + " 0\n";
+  for (uint64_t i = 0; i < vertices; ++i) text += std::to_string(i) + " 0 0\n";
+  for (size_t c = 0; c < corners.size(); ++c)
+    text += (c % 3 == 0 ? "3 " : "") + std::to_string(corners[c] % vertices) +
+            (c % 3 == 2 ? "\n" : " ");
+  return text;
+}
+
+// As in a scan: neither recorded nor joined.
+TEST(Spilled, OfFacesInTheOrderOfTheVerticesOnlyTheVerticesAreSpilled) {
+  std::vector<uint64_t> corners;
+  for (uint64_t i = 0; i + 201 < 100000; ++i) corners.insert(corners.end(), {i, i + 1, i + 200});
+  const std::string bytes = tall_off(100000, corners);
+  expect_same_when_spilled(read_off, bytes, kMinShare);
+  const MemoryFile memory(bytes);
+  MemoryBudget budget;
+  TestSpill spill(kMinShare);
+  outcome_of(read_off, memory.file(), &budget, spill.space());
+  EXPECT_LE(spill.file()->peak_bytes(), 100000 * 3 * sizeof(double) * 11 / 10);
+  EXPECT_LE(spill.file()->read_bytes(), spill.file()->written_bytes());
 }
 
 TEST(Spilled, MoreVerticesThanTheShareCanJoinAreAMemoryErrorThatSaysSo) {
-  const MemoryFile memory(tall_off(100000));
+  Random random(9);
+  std::vector<uint64_t> corners(30000);
+  for (uint64_t& corner : corners) corner = random();
+  const MemoryFile memory(tall_off(100000, corners));
   MemoryBudget budget;
   TestSpill spill(kMinShare);
   const Outcome outcome = outcome_of(read_off, memory.file(), &budget, spill.space());
