@@ -37,6 +37,8 @@
 #   bundle  build/bundle/svdag-VERSION-linux-x86_64.tar.gz: the programs with their libraries
 #   deb     build/deb/*.deb: the packages svdag and libsvdag-dev
 #   cuda    build/cuda/svdag-trace: the tracer for NVIDIA GPUs
+#   arm64   the programs and build/arm64/deb/*.deb for arm64, without svdag-verify's judges by CGAL, Embree and
+#           OpenVDB; adds the architecture arm64 to dpkg, for the libraries
 #   pictures  the rendered pictures of docs/images/
 #   clean   remove build/ and demo/
 
@@ -44,7 +46,7 @@ PACKAGES = g++ cmake ninja-build pkg-config libglm-dev nlohmann-json3-dev libcli
   libxxhash-dev libzstd-dev libhwy-dev libsodium-dev zlib1g-dev libdraco-dev libopenmesh-dev libassimp-dev \
   libexpat1-dev libminizip-dev libmeshoptimizer-dev libstb-dev libboost-dev libcpp-httplib-dev \
   libcgal-dev libembree-dev libpng-dev libjpeg62-turbo-dev libopenvdb-dev libboost-iostreams-dev libnanovdb-dev python3-openvdb \
-  libgtest-dev librapidcheck-dev dpkg-dev file man-db python3 python3-venv python3-numpy python3-xxhash valgrind
+  libgtest-dev libgmock-dev librapidcheck-dev dpkg-dev file man-db python3 python3-venv python3-numpy python3-xxhash valgrind
 FARM_PACKAGES = slurm-wlm munge
 PYTHON_PACKAGES = python3-dev
 WHEEL_TOOLS = "scikit-build-core>=0.10" "nanobind>=2.0"
@@ -52,17 +54,21 @@ VIEW_PACKAGES = chromium
 VULKAN_PACKAGES = libvulkan-dev mesa-vulkan-drivers glslang-tools
 BENCH_PACKAGES = python3-matplotlib
 STRESS_PACKAGES = clang libclang-rt-14-dev llvm chromium debootstrap fish zsh
+# Debian's libraries for arm64 that can be installed beside those for this machine (not OpenMesh and OpenVDB).
+ARM64_PACKAGES = g++-aarch64-linux-gnu qemu-user-static $(addsuffix :arm64,libxxhash-dev libzstd-dev libhwy-dev libsodium-dev \
+  zlib1g-dev libdraco-dev libassimp-dev libexpat1-dev libminizip-dev libmeshoptimizer-dev libstb-dev libcpp-httplib-dev libpng-dev \
+  libjpeg62-turbo-dev libgtest-dev libgmock-dev librapidcheck-dev)
 
 PRESET = release
 PROGRAMS = build/$(PRESET)
 PYTHON = /usr/bin/python3 -B
 
 .PHONY: all deps build demo test test-sanitized test-farm test-python test-view test-vulkan stress fuzz-long bench bench-before bench-giants bench-sort \
-  bench-out-of-core bench-cache bench-accuracy bench-plan bench-vdb bench-trace bench-cuda bench-size bench-layers bench-colour bench-solid bench-exchange bench-python bundle wheel deb cuda \
+  bench-out-of-core bench-cache bench-accuracy bench-plan bench-vdb bench-trace bench-cuda bench-size bench-layers bench-colour bench-solid bench-exchange bench-python bundle wheel deb cuda arm64 \
   pictures clean
 all: build
 
-# $(call install,PACKAGES): nothing if all are there; never a prompt.
+# $(call install,PACKAGES): nothing if all are there; never a prompt, and no other package is removed.
 define install
 	@missing=$$(for p in $(1); do \
 	  dpkg-query -W -f '$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || echo $$p; done); \
@@ -74,7 +80,7 @@ define install
 	  echo "  apt-get install -y --no-install-recommends $$missing"; exit 1; fi; \
 	echo "Installing $$missing"; \
 	$$sudo env DEBIAN_FRONTEND=noninteractive apt-get -qq update && \
-	$$sudo env DEBIAN_FRONTEND=noninteractive apt-get -qq install -y --no-install-recommends \
+	$$sudo env DEBIAN_FRONTEND=noninteractive apt-get -qq install -y --no-remove --no-install-recommends \
 	  $$missing >/dev/null
 endef
 
@@ -214,6 +220,16 @@ cuda: deps
 	CUDACXX=$$nvcc cmake --preset cuda --log-level=WARNING >/dev/null && \
 	cmake --build --preset cuda --target svdag-trace && \
 	echo "build/cuda/svdag-trace"
+
+arm64: deps
+	@dpkg --print-foreign-architectures | grep -qx arm64 || { \
+	  echo "dpkg --add-architecture arm64 (undo: apt-get purge '?architecture(arm64)'; dpkg --remove-architecture arm64)"; \
+	  if [ "$$(id -u)" = 0 ]; then sudo=; else sudo="sudo -n"; fi; \
+	  $$sudo dpkg --add-architecture arm64; }
+	$(call install,$(ARM64_PACKAGES))
+	@cmake --preset arm64 --log-level=WARNING >/dev/null
+	@cmake --build --preset arm64 --target svdag svdag-export svdag-import svdag-verify svdag-trace svdag-scene svdag_manuals
+	@cd build/arm64 && DEB_HOST_ARCH=arm64 cpack -G DEB -B deb >/dev/null && ls "$$PWD"/deb/*.deb
 
 # The pictures of docs/images/, all of generated scenes.
 pictures: build

@@ -3,7 +3,7 @@
 # make stress STAGES="tsan packages".
 set -eu
 cd "$(dirname "$0")/../.."
-all="tsan families cut_outs properties one_hash completion faults report_shot packages fuzzers"
+all="tsan families cut_outs properties one_hash arm64 completion faults report_shot packages fuzzers"
 skipped=
 
 may_skip() {  # COMMAND...: exit code 77 means that it cannot run here
@@ -44,6 +44,14 @@ properties() {  # 5000 inputs for each instead of 100
 
 one_hash() {  # the same bytes with every compiler and flag
   bash tests/stress/one_hash.sh
+}
+
+arm64() {  # under QEMU, which has no seccomp filters
+  make arm64
+  release svdag svdag-scene svdag-trace
+  cmake --build --preset arm64
+  GTEST_FILTER='-LimitedChild.*:*andbox*' ctest --test-dir build/arm64 -L '^unit$' -R '_test$' --output-on-failure --no-tests=error
+  /usr/bin/python3 -B tests/arm64/same_bytes.py build/release build/arm64 qemu-aarch64-static
 }
 
 completion() {  # in bash, fish and zsh
