@@ -4,6 +4,9 @@
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 8, local_size_y = 8) in;
 
+#ifndef ROOT
+#define ROOT 0u
+#endif
 #define SVDAG_SET 0
 #define SVDAG_BINDING 0
 #include "svdag/shaders/svdag.glsl"
@@ -30,7 +33,7 @@ uint random(uint v) {  // pcg
 
 void main() {
   uint i = gl_GlobalInvocationID.y * uint(size.x) + gl_GlobalInvocationID.x;
-  SvdagDag dag = SvdagDag(0u, 0u, uint(eye.w));
+  SvdagDag dag = SvdagDag(0u, ROOT, uint(eye.w));
   int levels = svdag_levels(dag);
   ivec3 voxel = ivec3(uvec3(random(3u * i), random(3u * i + 1u), random(3u * i + 2u)) >> uint(32 - levels));
   uint sides = random(~i) & random(i) & 0x3ffffu;  // small ones more often
@@ -41,5 +44,5 @@ void main() {
   layer = svdag_layer(dag, voxel);
   colour = svdag_colour(dag, voxel);
 #endif
-  pixels[i] = Query(voxel, found, layer, colour, sides, uint(svdag_empty_side(dag, 0, 0u, voxel)));
+  pixels[i] = Query(voxel, found, layer, colour, sides, uint(svdag_empty_side(dag, 0, ROOT, voxel)));
 }

@@ -10,6 +10,7 @@ import glob
 import json
 import os
 import pathlib
+import struct
 import subprocess
 import sys
 import tempfile
@@ -129,6 +130,13 @@ def chord(grid, camera, at, voxel):
     return float((times[1].min() - times[0].max()) * numpy.linalg.norm(ray))
 
 
+def ray_lengths(angle):
+    """The length of each pixel's direction in trace.comp, which is the unit of its times."""
+    step = 2 * numpy.tan(numpy.radians(angle) / 2) / HEIGHT
+    y, x = (numpy.mgrid[:HEIGHT, :WIDTH].T + 0.5 - numpy.array([HEIGHT, WIDTH]) / 2).T * step
+    return numpy.sqrt(1 + x * x + y * y)
+
+
 class Rays(unittest.TestCase):
     def test_hits_are_those_of_the_tracer(self):
         """1K³ to 64K³, both layouts, ten cameras each. Every pixel that differs is that of a ray which grazes one of the
@@ -155,8 +163,9 @@ class Rays(unittest.TestCase):
                                    for one, found in [(shown, shown["face"][at]), (hits, hits["found"][at])] if found]
                         edge = max(edge, min(map(abs, lengths)))
                     same = (hits["found"] == 1) & (shown["face"] > 0) & (shown["voxel"] == hits["voxel"]).all(axis=2)
-                    if info(file).get("layers"):
-                        self.assertTrue(((shown["layer"] + 1) == hits["layer"])[same].all())
+                    t = shown["t"].view(numpy.float32) * ray_lengths(camera[2])
+                    numpy.testing.assert_allclose(t[same], hits["t"][same], rtol=1e-6, atol=1e-5)
+                    self.assertTrue((shown["layer"] + 1 == hits["layer"])[same].all())
         print(f"pixels that differ from svdag-trace: {differ} of {100 * WIDTH * HEIGHT:,}, at most {worst} of a picture; "
               f"{100 * hit:.0f} % hit; they graze a voxel by {edge:.1e} of its side or less", file=sys.stderr)
         self.assertGreater(hit, 0.2)
@@ -185,15 +194,28 @@ class Queries(unittest.TestCase):
         cls.layers[tuple(voxels["coordinates"].T)] = voxels["label"]
         cls.set = cls.layers != NONE
 
+    @staticmethod
+    def root_of(file, layer):
+        """The index in level 0 of the root of a layer (docs/format.md)."""
+        data = file.read_bytes()
+        section, table = (struct.unpack_from("<Q", data, at)[0] for at in (176, 792))
+        root, = struct.unpack_from("<I", data, table + 24 * layer + 8)
+        if data[768] == 0:  # plain: the nodes before it
+            at = 0
+            for _ in range(root):
+                at += 1 + data[section + 4 * at].bit_count()
+            root = at
+        return root
+
     def found(self, build, file, shader):
         camera = next(cameras(self.file, 1))
         shaded_pixels = shaded(build, file, camera, shader).ravel()
         return shaded_pixels, tuple(shaded_pixels["voxel"].T)
 
-    def require_points_and_boxes(self, pixels, at):
-        self.assertGreater(self.set[at].sum(), 1000)
-        numpy.testing.assert_array_equal(pixels["face"] & 1, self.set[at])
-        sums = numpy.pad(self.set, ((1, 0),) * 3).astype(numpy.int32).cumsum(0).cumsum(1).cumsum(2)
+    def require_points_and_boxes(self, pixels, at, voxels):
+        self.assertGreater(voxels[at].sum(), 500)
+        numpy.testing.assert_array_equal(pixels["face"] & 1, voxels[at])
+        sums = numpy.pad(voxels, ((1, 0),) * 3).astype(numpy.int32).cumsum(0).cumsum(1).cumsum(2)
         ends = [numpy.minimum(a + 1 + (pixels["shown"] >> 6 * i & 63), 256) for i, a in enumerate(at)]
         count = sum((-1) ** (3 - i - j - k) * sums[tuple((low, high)[bit] for low, high, bit in zip(at, ends, (i, j, k)))]
                     for i in range(2) for j in range(2) for k in range(2))
@@ -204,7 +226,7 @@ class Queries(unittest.TestCase):
         build = example()
         for file in [self.file, compact(self.file)]:
             pixels, at = self.found(build, file, queries(1, "-DATTRIBUTES"))
-            self.require_points_and_boxes(pixels, at)
+            self.require_points_and_boxes(pixels, at, self.set)
             numpy.testing.assert_array_equal(pixels["layer"], self.layers[at])
             self.assertGreater(len(numpy.unique(pixels["layer"])), 5)
             self.require_empty_sides(pixels, at)
@@ -231,13 +253,23 @@ class Queries(unittest.TestCase):
         self.assertEqual(shown, printed)
         self.assertGreater(len(set(shown)), 100)
 
+    def test_a_layer_alone(self):
+        table = json.loads(run(BUILD / "svdag", "info", self.file, "--layers", "--json"))["layer_table"]
+        layer = max(range(1, len(table)), key=lambda i: table[i]["voxels"])
+        run(BUILD / "svdag", "export", self.file, "-q", "-o", FOLDER / "layer.npz", "--layer", table[layer]["name"])
+        voxels = numpy.zeros_like(self.set)
+        voxels[tuple(numpy.load(FOLDER / "layer.npz")["coordinates"].T)] = True
+        for file in [self.file, compact(self.file)]:
+            pixels, at = self.found(example(), file, queries(1, f"-DROOT={self.root_of(file, layer)}u"))
+            self.require_points_and_boxes(pixels, at, voxels)
+
     def test_points_and_boxes_in_fifteen_buffers(self):
         plain = FOLDER / "plain.svdag"
         run(BUILD / "svdag", "build", FOLDER / "attributes.glb", "-r", "256", "-q", "-o", plain)
         bits = ((plain.stat().st_size // 4 + 32) // 15).bit_length()  # half of the buffers, or more
         build = example("BUFFERS=15", f"BUFFER_BITS={bits}")
         pixels, at = self.found(build, plain, queries(15, f"-DSVDAG_BUFFER_BITS={bits}"))
-        self.require_points_and_boxes(pixels, at)
+        self.require_points_and_boxes(pixels, at, self.set)
 
 
 if __name__ == "__main__":
