@@ -70,7 +70,7 @@ $ sha256sum box.svdag lattice.svdag
 ## build_little_memory
 $ svdag-scene hairball -n 1M -q -o h.ply
 $ svdag build h.ply -r 1K -m 1M -o h.svdag
-! svdag: a mesh of more than 98304 vertices does not fit the memory budget: raise --memory
+! svdag: the triangles need 2 MiB in total, but the memory budget is 1 MiB: raise --memory
 ? 5
 
 ## build_no_plane_memo

@@ -35,7 +35,7 @@ $ svdag-verify diff painted.svdag plain.svdag | tail -2
 | colours   only A
 | same
 $ paint_dag plain.svdag other.svdag 6 9 && svdag-verify diff painted.svdag other.svdag | tail -2
-| colours   different
+| colours   stored differently
 | same
 
 ## colours_query
@@ -100,7 +100,7 @@ $ cmp grey.png plain.png && echo "grey without"
 $ cmp -s grey.png colour.png || echo "other in colour"
 | other in colour
 $ svdag-verify render plain.svdag -o c.png --mode colour
-! svdag-verify: --mode colour: plain.svdag has neither colours nor layers (svdag build --layers)
+! svdag-verify: --mode colour: plain.svdag has neither colours nor layers (svdag build --colours, --layers)
 ? 2
 $ for f in painted plain; do svdag-trace $f.svdag --size 64x64 --samples 2 --rounds 1 --picture $f.ppm > /dev/null; done
 $ cmp -s painted.ppm plain.ppm || echo "rays in colour, too"

@@ -39,7 +39,7 @@ $ svdag import points.ply -o back.svdag
 | back.svdag: ply, 328,308 voxels of 256^3, 1,272 DAG nodes, 27.7 KiB
 |   content hash 8c1e65409a337afb13ff9de673ffc78c
 $ svdag build points.ply -o back.svdag -r 64
-! svdag: points.ply: the scene has no triangles to bake; points.ply holds only points: reconstruct a surface first, for example with CloudCompare
+! svdag: points.ply: the scene has no triangles to bake; points.ply holds only points, which svdag import takes; for triangles, reconstruct a surface
 ? 3
 
 ## import_full_disk
@@ -164,7 +164,7 @@ $ svdag info both.svdag --layers
 # Wrong requests.
 $ svdag export city.svdag -o a.npz -q
 $ svdag import a.xyz -o c.svdag
-! svdag: points need a voxel size or a resolution: give -s or -r, not both
+! svdag: points need a voxel size or a resolution: give -s or -r
 ? 2
 $ svdag import a.xyz -o c.svdag -s 0.5 -r 8
 ! svdag: points need a voxel size or a resolution: give -s or -r, not both

@@ -633,7 +633,7 @@ $ svdag info union.svdag --layers
 ! svdag: --layers: union.svdag has no layers (svdag build --layers)
 ? 2
 $ svdag-verify render union.svdag -o x.png --mode colour
-! svdag-verify: --mode colour: union.svdag has neither colours nor layers (svdag build --layers)
+! svdag-verify: --mode colour: union.svdag has neither colours nor layers (svdag build --colours, --layers)
 ? 2
 $ svdag merge 1.run 2.run -q -o 12.run && svdag build atrium.obj -o 3.run -r 256 -q --part 3/3 && svdag merge 12.run 3.run -o x.svdag
 ! svdag: 12.run and 3.run are from different bakes: --layers or --no-union differs

@@ -99,7 +99,7 @@ $ for name in a.blend a.abc a.usd a.usda a.usdc a.usdz a.step cloud.las scene.ob
 ! svdag: a.usdc: is USD, which svdag does not read: svdag-usd bakes it, a program of the Python package with the extra [usd]
 ! svdag: a.usdz: is USD, which svdag does not read: svdag-usd bakes it, a program of the Python package with the extra [usd]
 ! svdag: a.step: is a CAD model, which svdag does not read: tessellate it, for example with FreeCAD, and export it as .stl
-! svdag: cloud.las: is a point cloud (LAS), which svdag does not read: svdag bakes triangles: reconstruct a surface first, for example with CloudCompare
+! svdag: cloud.las: is a point cloud (LAS), which svdag does not read: svdag import takes points; for triangles, reconstruct a surface
 ! svdag: scene.obj.zst: is compressed with zstd, which svdag does not read: unpack it with unzstd
 ! svdag: a.vdb: is an OpenVDB grid, which svdag does not read: svdag import reads its voxels
 $ printf 'BLENDER-v300' > unnamed
@@ -115,7 +115,7 @@ $ svdag build https://example.org/a.glb -r 64 -o r.svdag
 ? 3
 $ printf 'ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n' > points.ply
 $ svdag build points.ply -r 64 -o r.svdag
-! svdag: points.ply: the scene has no triangles to bake; points.ply holds only points: reconstruct a surface first, for example with CloudCompare
+! svdag: points.ply: the scene has no triangles to bake; points.ply holds only points, which svdag import takes; for triangles, reconstruct a surface
 ? 3
 
 ## build_gltf_skin
