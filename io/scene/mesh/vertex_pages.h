@@ -3,9 +3,10 @@
 //
 // The faces of most files refer to vertices in about the order of the file, so that each page is
 // read once. Where they do not, lookups soon cost more than a join
-// (io/scene/mesh/vertex_windows.h), and is_costly() says so. A page is a block of the file. Pages
-// leave memory in the order in which they came (the rows of a scan need a few at a time, a random
-// order is for the join); after two consecutive pages the next one is read ahead.
+// (io/scene/mesh/vertex_windows.h), and is_costly() says so.
+// A page is a block of the file. Pages leave memory in the order in which they came (the rows of a
+// scan need a few at a time, a random order is for the join); after two consecutive pages the next
+// one is read ahead.
 #pragma once
 
 #include <cstddef>
@@ -35,9 +36,10 @@ class VertexPages {
     if (bytes == nullptr) bytes = load(page);
     return point_at(bytes + (i - page * page_size_) * position_bytes_);
   }
-  // True if a join would have been cheaper than the lookups so far.
+  // True if a join would have been cheaper than the lookups so far. It writes and reads a reference
+  // and a position for each: half of that is allowed, and a quarter of the pages.
   bool is_costly() const {
-    return reads_ > pages_.size() / 4 + lookups_ * kJoinBytes / file_->block_bytes();
+    return reads_ > pages_.size() / 4 + lookups_ * position_bytes_ / file_->block_bytes();
   }
   // Calls use(i, position) for all vertices, in order.
   template <class Use>
@@ -52,9 +54,6 @@ class VertexPages {
   void copy_to(VertexWindows* windows, bool keep);
 
  private:
-  // What a join reads and writes for a corner, less than half of it.
-  static constexpr uint64_t kJoinBytes = 12;
-
   struct Frame {
     uint64_t page;
     SpillBlock block;

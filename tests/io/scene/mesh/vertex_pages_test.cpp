@@ -66,6 +66,22 @@ TEST(VertexPages, RowsAreReadOnce) {
   EXPECT_LE(pages.peak_bytes(), 12 * kRow * kRows * 11 / 10);
 }
 
+// The least that a file in order looks up: every vertex once.
+template <class T>
+void expect_soup_is_not_costly() {
+  constexpr uint64_t kVertices = 100000;
+  Pages<T> pages(kVertices);
+  for (uint64_t i = 0; i < kVertices; ++i) {
+    pages.look_up(i);
+    ASSERT_FALSE(pages.pages().is_costly()) << i;
+  }
+}
+
+TEST(VertexPages, TrianglesThatShareNothingAreNotCostly) {
+  expect_soup_is_not_costly<float>();
+  expect_soup_is_not_costly<double>();
+}
+
 TEST(VertexPages, ARandomOrderIsCostlyBeforeMuchIsRead) {
   Pages<float> pages(100000);
   std::mt19937_64 random(1);
