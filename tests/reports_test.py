@@ -34,6 +34,7 @@ svdag convert city.svdag -o small.svdag --layout compact
 svdag pack city.svdag -o city.pack
 svdag unpack city.pack -o unpacked.svdag
 svdag export city.svdag -o city.npz
+svdag export city.svdag -o distances.npz --level 5 --distance 4
 svdag export city.svdag -o city.glb
 svdag export red.svdag -o red.vox
 svdag import city.npz -o back.svdag
