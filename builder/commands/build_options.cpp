@@ -162,7 +162,7 @@ void add_build(CLI::App* program, Command* command) {
   app->preparse_callback([=](size_t) { *options = {}; });
   app->callback([=] {
     BakeCommand& bake = options->bake;
-    if (bake.build.output.empty()) bake.build.output = "dry-run.svdag";  // is not written
+    if (options->dry_run && bake.build.output.empty()) bake.build.output = "dry-run.svdag";
     if (options->dry_run)
       *command = DryRunCommand{bake.build, bake.threads, bake.output};
     else

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "builder/commands/commands.h"
+#include "io/colour.h"
 #include "io/dag/colours/dag_colours.h"
 #include "io/dag/cube_at.h"
 #include "io/dag/dag_file.h"
@@ -76,24 +77,14 @@ std::optional<LatticePoint> voxel_of(const Lattice& lattice, const Grid& grid, c
   return voxel;
 }
 
-// The shortest decimal that is read as the same number.
-void append(std::string* out, double value) {
-  std::array<char, 32> digits;
-  out->append(digits.data(), std::to_chars(digits.begin(), digits.end(), value).ptr);
-}
-
 // "  #rrggbb", or "  none".
 void append_colour(std::string* out, const ColourView& colours, const LatticePoint& voxel) {
   const uint32_t colour = svdag_colour(colours, colours.dag.levels, uint32_t(voxel.x),
                                        uint32_t(voxel.y), uint32_t(voxel.z));
-  if (colour == kNoColour) {
-    *out += "  none";
-    return;
-  }
-  std::array<char, 16> code;
-  std::snprintf(code.data(), code.size(), "  #%02x%02x%02x", colour & 255, colour >> 8 & 255,
-                colour >> 16);
-  *out += code.data();
+  *out += "  ";
+  *out += colour == kNoColour
+              ? "none"
+              : colour_text({uint8_t(colour), uint8_t(colour >> 8), uint8_t(colour >> 16)});
 }
 
 // What answers points.
@@ -111,7 +102,7 @@ void append_box(std::string* out, const Grid& grid, const LatticePoint& min,
   for (const Point& corner : {box.min, box.max}) {
     for (int a = 0; a < 3; ++a) {
       *out += a == 0 ? "  " : " ";
-      append(out, corner[a]);
+      *out += format_double(corner[a]);
     }
   }
 }
@@ -148,8 +139,7 @@ void append_nearest(std::string* out, const QuerySource& source, std::span<const
       continue;
     }
     const LatticePoint voxel(nearest.voxel[0], nearest.voxel[1], nearest.voxel[2]);
-    *out += "near ";
-    append(out, distance);
+    *out += "near " + format_double(distance);
     append_box(out, source.grid, voxel, voxel + int64_t(1));
     if (source.colours) append_colour(out, source.colours->view(), voxel);
     *out += '\n';

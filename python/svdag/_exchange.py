@@ -13,7 +13,7 @@ from . import _programs
 from ._commands import Input, export
 from ._error import Error
 from ._file import PathLike
-from ._make import without_folder
+from ._make import folder_beside, without_folder
 
 _USAGE = 2
 _POINTS = 1 << 20  # of a LAZ, decompressed at once
@@ -61,7 +61,7 @@ def to_mesh(path: Input, **options: Any) -> Mesh:
 
 
 @contextlib.contextmanager
-def _without_laz(path: PathLike, folder: PathLike) -> Iterator[PathLike]:
+def _without_laz(path: PathLike, output: PathLike) -> Iterator[PathLike]:
     """The path, or that of a temporary LAS beside the output with the points of a LAZ."""
     if not os.fsdecode(path).lower().endswith(".laz"):
         yield path
@@ -72,7 +72,7 @@ def _without_laz(path: PathLike, folder: PathLike) -> Iterator[PathLike]:
             raise ImportError("no backend")
     except ImportError:
         raise Error(f"{os.fsdecode(path)}: LAZ needs laspy, which is not installed: pip install 'laspy[lazrs]'", _USAGE) from None
-    with tempfile.TemporaryDirectory(prefix=".svdag-laz-", dir=folder) as temporary:
+    with folder_beside(output, ".svdag-laz-") as temporary:
         las = os.path.join(temporary, pathlib.Path(os.fsdecode(path)).stem + ".las")
         try:
             with laspy.open(path) as compressed, laspy.open(las, "w", header=compressed.header) as out:
@@ -82,7 +82,10 @@ def _without_laz(path: PathLike, folder: PathLike) -> Iterator[PathLike]:
             raise
         except Exception as error:  # laspy's own, and those of its decompressor
             raise Error(f"{os.fsdecode(path)}: laspy cannot read it: {error}", 3) from None
-        yield las
+        try:
+            yield las
+        except Error as error:
+            raise without_folder(error, temporary) from None
 
 
 def import_file(path: Union[PathLike, Sequence[PathLike]], output: PathLike, **options: Any) -> Dict[str, Any]:
@@ -91,7 +94,6 @@ def import_file(path: Union[PathLike, Sequence[PathLike]], output: PathLike, **o
     Several files of points are one cloud. A .laz is decompressed by laspy, beside the output.
     """
     files = [path] if isinstance(path, (str, os.PathLike)) else list(path)
-    folder = os.path.dirname(os.path.abspath(os.fsdecode(output)))
     with contextlib.ExitStack() as stack:
-        read = [stack.enter_context(_without_laz(file, folder)) for file in files]
+        read = [stack.enter_context(_without_laz(file, output)) for file in files]
         return _programs.run_json("svdag-import", *read, "-o", output, *_programs.words_of(options))

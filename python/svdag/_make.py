@@ -53,6 +53,12 @@ def made(path: Optional[PathLike], make: Callable[[PathLike], Dict[str, Any]], i
         return file
 
 
+def folder_beside(output: PathLike, prefix: str) -> "tempfile.TemporaryDirectory[str]":
+    """A temporary folder beside the output, or where temporary files are if its folder is missing."""
+    folder = os.path.dirname(os.path.abspath(os.fsdecode(output)))
+    return tempfile.TemporaryDirectory(prefix=prefix, dir=folder if os.path.isdir(folder) else None)
+
+
 def without_folder(error: Error, folder: PathLike) -> Error:
     """An error that does not name a temporary folder."""
     return type(error)(str(error).replace(f"{folder}/", ""), error.code, error.path.replace(f"{folder}/", ""))
@@ -124,7 +130,8 @@ def build(vertices: Any, faces: Optional[ArrayLike] = None, path: Optional[PathL
         meshes = {"scene": _mesh(vertices, faces)}
     else:
         _refuse_faces(faces)
-        meshes = {name: _mesh(mesh) if hasattr(mesh, "vertices") else _mesh(*mesh) for name, mesh in vertices.items()}
+        meshes = {name: _mesh(*mesh) if isinstance(mesh, (tuple, list)) and not hasattr(mesh, "vertices") else _mesh(mesh)
+                  for name, mesh in vertices.items()}
         options.setdefault("layers", "file")
     if not meshes:
         raise ValueError("build: the mapping has no mesh")
@@ -133,8 +140,7 @@ def build(vertices: Any, faces: Optional[ArrayLike] = None, path: Optional[PathL
             raise ValueError(f"build: {name!r} cannot be the name of a layer")
 
     def bake(output: PathLike) -> Dict[str, Any]:
-        folder = os.path.dirname(os.path.abspath(os.fsdecode(output)))
-        with tempfile.TemporaryDirectory(prefix=".svdag-scene-", dir=folder if os.path.isdir(folder) else None) as temporary:
+        with folder_beside(output, ".svdag-scene-") as temporary:
             files = [pathlib.Path(temporary) / name for name in meshes]  # a layer has the name of its file
             for file, mesh in zip(files, meshes.values()):
                 write_ply(file, *mesh)
@@ -215,8 +221,7 @@ def from_points(points: ArrayLike, path: Optional[PathLike] = None, *, colours: 
         channels = "".join(f"property uchar {name}\n" for name in ("red", "green", "blue"))
 
     def write(output: PathLike) -> Dict[str, Any]:
-        folder = os.path.dirname(os.path.abspath(os.fsdecode(output)))
-        with tempfile.TemporaryDirectory(prefix=".svdag-points-", dir=folder if os.path.isdir(folder) else None) as temporary:
+        with folder_beside(output, ".svdag-points-") as temporary:
             cloud = pathlib.Path(temporary) / "points.ply"
             with cloud.open("wb") as file:
                 file.write(f"ply\nformat binary_little_endian 1.0\nelement vertex {len(array)}\nproperty double x\n"

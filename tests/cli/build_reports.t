@@ -7,6 +7,16 @@ $ svdag build s.ply -r 64 -o a.svdag --json --report r.json > out.json
 $ cmp out.json r.json
 $ svdag build s.ply -r 64 -o b.svdag --json --dry-run | python3 -c 'import json, sys; print(sorted(json.load(sys.stdin)))'
 | ['budget_bytes', 'cells', 'cpu_seconds', 'memory_bytes', 'output_bytes', 'output_free_bytes', 'resolution', 'scratch_bytes', 'scratch_free_bytes', 'seconds', 'threads', 'triangles']
+$ svdag build s.ply -r 64 --dry-run -q && ls | grep dry  # without an output
+? 1
+$ svdag build s.ply -r 64 -q
+! svdag: --output is required; see svdag build --help
+? 2
+$ svdag build s.ply -r 64 -q -o ''
+! svdag: -o: the value is empty; see svdag build --help
+? 2
+$ ls | grep dry
+? 1
 $ svdag batch list.json --dry-run --json
 ! svdag: --dry-run cannot be combined with --json; see svdag batch --help
 ? 2

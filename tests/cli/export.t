@@ -433,6 +433,9 @@ $ svdag export c.svdag -o d.npz --distance 64 && python3 -m zipfile -l d.npz | g
 | corner.npy
 | voxel_size.npy
 | limit.npy
+$ svdag export d.npz -o back.svdag
+! svdag: d.npz is not named .svdag: svdag import reads other formats
+? 2
 $ svdag export c.svdag -o d.npz --distance 65
 ! svdag: --distance: "65" is not a number from 1 to 64; see svdag export --help
 ? 2

@@ -88,6 +88,14 @@ $ printf '5 0 0\n5,0.2,0.1\n0 10 0\n\n-9 9 9\n1e300 0 0\n' | svdag query t.svdag
 | empty 2  -7.5 8.5 -7.5  0.5 16.5 0.5
 | empty 2  -15.5 8.5 8.5  -7.5 16.5 16.5
 | outside
+$ for i in $(seq 100); do echo $i $((i % 7)) 0.25; done > points  # answered together, and one by one
+$ for option in '' --nearest; do
+>   while read point; do echo $point | svdag query t.svdag $option; done < points > alone
+>   svdag query t.svdag $option < points | cmp - alone
+> done
+$ (head -40 points; echo 1 2) | svdag query t.svdag | wc -l
+| 40
+! svdag: standard input: line 41 is not a point: give x y z
 $ echo 1 2 | svdag query t.svdag
 ! svdag: standard input: line 1 is not a point: give x y z
 ? 3

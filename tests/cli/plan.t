@@ -253,7 +253,7 @@ $ svdag run p --step shard-2
 $ svdag run p --step merge-4 -q
 $ svdag run p -j 2 | grep -v planned | LC_ALL=C sort
 |* */p/p.svdag
-| all 11 steps were done before
+| 11 of 11 steps were done before
 | merge-1    already done
 | merge-2    already done
 | merge-3    already done

@@ -59,10 +59,11 @@ bool ends_in(const std::string& path, const char* ending) {
 }
 
 const FormatRow& choose(const ExportConfig& config) {
-  const bool to_dag = config.format.empty() && ends_in(config.output, "svdag");
-  if (to_dag && !ends_in(config.file, "svdag") && !ends_in(config.file, "pack"))
-    fail_usage(config.file + " is not named .svdag: svdag import reads other formats");
-  if (to_dag) fail_usage(config.output + ": to write the .svdag of SymVox, add --format symvox");
+  if (config.format.empty() && ends_in(config.output, "svdag")) {
+    if (!ends_in(config.file, "svdag") && !ends_in(config.file, "pack"))
+      fail_usage(config.file + " is not named .svdag: svdag import reads other formats");
+    fail_usage(config.output + ": to write the .svdag of SymVox, add --format symvox");
+  }
   std::string names;
   for (const FormatRow& row : kFormats) {
     const bool chosen = config.format.empty() ? ends_in(config.output, row.format.ending)
@@ -141,7 +142,7 @@ std::string report_json(const ExportConfig& config, const char* format, const Gr
 }
 
 // ", 1,234 faces as 567 quads" of a surface, ", 4,096 distances" of these, else nothing.
-std::string surface_text(const ExportResult& result) {
+std::string counts_text(const ExportResult& result) {
   if (result.distances) return ", " + format_count(*result.distances) + " distances";
   if (!result.surface) return {};
   return ", " + format_count(result.surface->faces) + " faces as " +
@@ -197,7 +198,7 @@ int run(const ExportConfig& options) {
     std::printf("%s: %s, %s voxels of level %d (%s^3)%s\n", printable(config.output).c_str(),
                 row.format.name, format_count(result.voxels).c_str(), part.grid.levels,
                 format_resolution(uint64_t(part.grid.resolution())).c_str(),
-                (surface_text(result) + palette_text(result)).c_str());
+                (counts_text(result) + palette_text(result)).c_str());
   return int(ExitCode::kOk);
 }
 

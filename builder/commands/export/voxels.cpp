@@ -25,18 +25,17 @@ void check_count(uint64_t count, const char* what, const ExportConfig& config) {
 }
 
 // Counts the voxels: the count in the file's header is not trusted.
-VoxelWindow window_of(ExportPart* part, const ExportConfig& config, MemoryBudget* budget) {
+VoxelWindow window_of(ExportPart* part, MemoryBudget* budget) {
   const auto memory =
       budget->reserve(part->walk.counting_bytes(part->grid.selection), "counts of voxels");
-  const VoxelWindow window{part->grid, &part->walk, part->walk.count_voxels(part->grid.selection)};
-  check_count(window.voxels, "voxels", config);
-  return window;
+  return {part->grid, &part->walk, part->walk.count_voxels(part->grid.selection)};
 }
 
 ExportResult export_window(
     ExportPart* part, const ExportConfig& config, MemoryBudget* budget,
     const std::function<void(const VoxelWindow&, const std::string&)>& write) {
-  VoxelWindow window = window_of(part, config, budget);
+  VoxelWindow window = window_of(part, budget);
+  check_count(window.voxels, "voxels", config);
   std::optional<LayerLabels> labels;
   std::optional<VoxelColours> colours;
   if (!part->file.layers().empty()) window.labels = &labels.emplace(part->file, part->grid.levels);
@@ -57,7 +56,7 @@ VoxelBox occupied_window(const ExportPart& part) {
 ExportResult export_distances(ExportPart* part, const ExportConfig& config, MemoryBudget* budget) {
   const LatticePoint size = part->grid.selection.max - part->grid.selection.min;
   check_count(uint64_t(size.x) * uint64_t(size.y) * uint64_t(size.z), "distances", config);
-  const VoxelWindow window{part->grid, &part->walk, part->walk.count_voxels(part->grid.selection)};
+  const VoxelWindow window = window_of(part, budget);
   const DistanceConfig distance{.limit = *config.distance,
                                 .is_signed = is_solid(part->file.rule())};
   return {.voxels = window.voxels,

@@ -26,10 +26,7 @@ std::string output_name(const std::string& folder) {
 Plan plan(PlanConfig config, const OutputConfig& output) {
   Progress progress(output.mode());
   if (!config.folder.empty()) config.output = output_name(config.folder);
-  Plan made = make_plan(config, &progress);
-  // The survey leaves them to the pass of colours.
-  if (config.build.colours) made.counts.scene.left_out.forget(Omission::kVertexColours);
-  return made;
+  return make_plan(config, &progress);
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ void LiveTable::finish(const std::vector<StepRow>& rows) {
     memory = std::max(memory, row.receipt->memory);
   }
   if (done_before == rows.size()) {
-    std::printf("all %zu steps were done before\n", done_before);
+    std::printf("%zu of %zu steps were done before\n", done_before, rows.size());
     return;
   }
   const std::string before =

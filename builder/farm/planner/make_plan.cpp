@@ -200,6 +200,7 @@ void Planner::add_colours() {
   const ColourWork work =
       survey_colours(painted, plan_.grid, plan_.colours->pass, &workspace_, &counts);
   plan_.counts.scene.unread_images = counts.unread_images;
+  plan_.counts.scene.left_out = counts.left_out;  // less than without colours
   inputs_.check();
   PlanStep& merge = plan_.steps.back();
   PlanStep step;

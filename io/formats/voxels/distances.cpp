@@ -1,6 +1,7 @@
 #include "io/formats/voxels/distances.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -54,24 +55,19 @@ class TileDistances {
       for (int64_t y = 0; y < size_.y + 2 * limit_; ++y) transform_z(x * side_ + y);
     for (int64_t x = 0; x < size_.x + 2 * limit_; ++x)
       for (int64_t y = 0; y < size_.y; ++y) {
-        Row* out = &row(&along_y_, x * kBandTile + y);
-        has_y_[size_t(x * kBandTile + y)] = least(along_z_, has_z_, x * side_ + y + limit_, 1, out);
+        const size_t row = size_t(x * kBandTile + y);
+        int16_t* const out = &along_y_[row * kBandTile];
+        has_y_[row] = least(along_z_, has_z_, x * side_ + y + limit_, 1, out);
       }
     for (int64_t x = 0; x < size_.x; ++x)
       for (int64_t y = 0; y < size_.y; ++y) {
-        Row squares;
-        least(along_y_, has_y_, (x + limit_) * kBandTile + y, kBandTile, &squares);
+        std::array<int16_t, kBandTile> squares;
+        least(along_y_, has_y_, (x + limit_) * kBandTile + y, kBandTile, squares.data());
         visit(x, y, squares);
       }
   }
 
  private:
-  using Row = std::array<int16_t, kBandTile>;
-
-  static Row& row(std::vector<int16_t>* rows, int64_t number) {
-    return reinterpret_cast<Row&>((*rows)[size_t(number * kBandTile)]);
-  }
-
   // The squares of distances along z, by a pass in each direction.
   void transform_z(int64_t number) {
     const uint8_t* seeds = &seeds_[size_t(number * side_)];
@@ -94,19 +90,18 @@ class TileDistances {
     has_z_[size_t(number)] = some;
   }
 
-  // The least of i^2 and the rows from + i * step. False if all are far.
+  // Sets the row `out` to the least of i^2 and the rows from + i * step. False if all are far.
   bool least(const std::vector<int16_t>& rows, const std::vector<uint8_t>& has, int64_t from,
-             int64_t step, Row* out) const {
+             int64_t step, int16_t* out) const {
     bool some = false;
-    out->fill(kFarSquare);
+    std::fill_n(out, kBandTile, kFarSquare);
     for (int64_t i = -limit_; i <= limit_; ++i) {
       const int64_t number = from + i * step;
       if (has[size_t(number)] == 0) continue;
       some = true;
       const int16_t square = int16_t(i * i);
       const int16_t* row = &rows[size_t(number * kBandTile)];
-      for (size_t z = 0; z < size_t(kBandTile); ++z)
-        (*out)[z] = std::min((*out)[z], int16_t(row[z] + square));
+      for (int64_t z = 0; z < kBandTile; ++z) out[z] = std::min(out[z], int16_t(row[z] + square));
     }
     return some;
   }
@@ -213,14 +208,8 @@ uint64_t write_distances(const VoxelWindow& window, const DistanceConfig& config
     }
   }
   zip.end();
-  const Point corner = window.grid.corner();
-  begin_array(&zip, "corner", "<f8", "(3,)");
-  for (int a = 0; a < 3; ++a)
-    zip.put(corner[a] + double(window.box().min[a]) * window.grid.voxel_size);
-  zip.end();
-  begin_array(&zip, "voxel_size", "<f8", "()");
-  zip.put(window.grid.voxel_size);
-  zip.end();
+  const double side = window.grid.voxel_size;
+  put_placement(&zip, window.grid.corner() + Point(window.box().min) * side, side);
   begin_array(&zip, "limit", "<f8", "()");
   zip.put(double(config.limit));
   zip.end();

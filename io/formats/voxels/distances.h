@@ -3,8 +3,7 @@
 //
 // The square of the distance between the middles of two voxels is an integer. With S the set
 // voxels, N the limit and all offsets i, j, k in -N .. N,
-//   D(x, y, z) = min over i of i^2 + min over j of j^2 + min over k with (x+i, y+j, z+k) in S of
-//   k^2
+//   D(x, y, z) = min_i (i^2 + min_j (j^2 + min_k k^2)),  (x+i, y+j, z+k) in S,
 // is the least square wherever it is at most N^2, since then no offset of the nearest voxel exceeds
 // N. Set voxels outside of the window count; outside of the grid there are none.
 //
@@ -13,10 +12,10 @@
 // -1.
 //
 // Invariant: D is computed per tile of at most 64^3 voxels with a border of N, so memory is that of
-// a tile, and of the planes of tiles that are written in order. Squares are 16 bits: 3 N^2 + 2
-// kFarSquare of the largest N is less than 2^15. Rows without a set voxel are passed over.
-// Rejected: lower envelopes (Felzenszwalb and Huttenlocher), whose time does not depend on N: for
-// bands of up to 64 voxels, minima of 16 bits by eights are as fast.
+// a tile, and of the planes of tiles that are written in order. Squares, also those of no voxel,
+// fit in 16 bits, so minima are taken eight at a time. Rows without a set voxel are passed over.
+// Rejected: lower envelopes (Felzenszwalb and Huttenlocher): their time does not depend on N, but
+// they decide voxel by voxel, and N is small.
 #pragma once
 
 #include <cstdint>

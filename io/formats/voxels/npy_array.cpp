@@ -108,4 +108,13 @@ void begin_array(ZipWriter* zip, const std::string& name, const std::string& typ
   zip->put(header);
 }
 
+void put_placement(ZipWriter* zip, const Point& corner, double voxel_size) {
+  begin_array(zip, "corner", "<f8", "(3,)");
+  for (int a = 0; a < 3; ++a) zip->put(corner[a]);
+  zip->end();
+  begin_array(zip, "voxel_size", "<f8", "()");
+  zip->put(voxel_size);
+  zip->end();
+}
+
 }  // namespace svdag

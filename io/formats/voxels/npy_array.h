@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/formats/voxels/zip.h"
+#include "io/triangle.h"
 #include "streaming/file/byte_stream.h"
 #include "streaming/file/file.h"
 
@@ -43,9 +44,11 @@ inline bool is_text(const NpyArray& array) {
 // Reads the next integer of the array; a negative one of any width becomes a large number.
 uint64_t read_integer(ByteStream* stream, const NpyArray& array);
 
-// Begins an archive entry: an array of this type and shape, in NumPy's notation. Its elements follow
-// in C order.
+// Begins an archive entry: an array of this type and shape, in NumPy's notation. Its elements
+// follow in C order.
 void begin_array(ZipWriter* zip, const std::string& name, const std::string& type,
                  const std::string& shape);
+// The arrays `corner` (3 x float64) and `voxel_size` (float64).
+void put_placement(ZipWriter* zip, const Point& corner, double voxel_size);
 
 }  // namespace svdag

@@ -226,13 +226,7 @@ void write_npz(const VoxelWindow& window, const std::string& path) {
   begin_array(&zip, "resolution", "<i8", "()");
   zip.put(window.grid.resolution());
   zip.end();
-  begin_array(&zip, "corner", "<f8", "(3,)");
-  const Point corner = window.grid.corner();
-  for (int a = 0; a < 3; ++a) zip.put(corner[a]);
-  zip.end();
-  begin_array(&zip, "voxel_size", "<f8", "()");
-  zip.put(window.grid.voxel_size);
-  zip.end();
+  put_placement(&zip, window.grid.corner(), window.grid.voxel_size);
   if (window.colours != nullptr && window.colours->are_stored()) put_colours(window, &zip);
   if (window.labels != nullptr) put_labels(window, &zip);
   zip.commit();

@@ -95,7 +95,6 @@ inline std::string omission_text(size_t kind, uint64_t count) {
 class LeftOut {
  public:
   void add(Omission kind, uint64_t count = 1) { counts_[size_t(kind)] += count; }
-  void forget(Omission kind) { counts_[size_t(kind)] = 0; }
   LeftOut& operator+=(const LeftOut& other) {
     for (size_t i = 0; i < kOmissionCount; ++i) counts_[i] += other.counts_[i];
     return *this;

@@ -39,7 +39,8 @@ class VertexPages {
   // True if a join would have been cheaper than the lookups so far. It writes and reads a reference
   // and a position for each: half of that is allowed, and a quarter of the pages.
   bool is_costly() const {
-    return reads_ > pages_.size() / 4 + lookups_ * position_bytes_ / file_->block_bytes();
+    const uint64_t allowed = pages_.size() / 4;
+    return reads_ > allowed && (reads_ - allowed) * page_size_ > lookups_;
   }
   // Calls use(i, position) for all vertices, in order.
   template <class Use>
