@@ -130,7 +130,8 @@ EXACT = {
                                 "verify/trace/kernel/rays.h", "verify/trace/kernel/tree64.h",
                                 "streaming/process/executor.h", "streaming/process/lap_timer.h",
                                 "streaming/memory/memory_budget.h"],
-    "verify/trace/program/cuda.cu": ["verify/trace/program/device.h", "streaming/error.h"],
+    "verify/trace/program/cuda.cu": ["verify/trace/program/device.h", "verify/trace/kernel/tree64.h", "verify/trace/kernel/walk64.h",
+                                     "streaming/error.h"],
     "verify/trace/program/without_cuda.cpp": ["verify/trace/program/device.h", "streaming/error.h"],
 }
 

@@ -8,7 +8,8 @@ import subprocess
 GENERATED = {"atrium": ["atrium"], "scan": ["scan"], "sheet": ["sheet"],
              "scan 70K": ["scan", "-n", "70K"], "scan 9M": ["scan", "-n", "9M"],
              "scan 100M": ["scan", "-n", "100M"], "scan 100M, shuffled": ["scan", "-n", "100M", "--shuffle"],
-             "speck": ["speck", "-n", "100M"], "hairball": ["hairball", "-n", "2880K"],
+             "scan 1G": ["scan", "-n", "1G"], "speck": ["speck", "-n", "100M"],
+             "hairball": ["hairball", "-n", "2880K"],
              "city": ["city", "-n", "120K"],
              "city, 0.5 rad": ["city", "-n", "120K", "--yaw", "28.6478897565412"]}
 # Files in the folder SVDAG_SCENES.

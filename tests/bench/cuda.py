@@ -18,8 +18,10 @@ from bench_tables import table
 CASES = [("sponza", 14, ["--camera", "-7,1.2,0,8,2,0,65", "--light", "0,7,0,0.5"]),
          ("sponza", 16, ["--camera", "-7,1.2,0,8,2,0,65", "--light", "0,7,0,0.5"]),
          ("hairball", 12, []), ("scan 9M", 14, []), ("city", 14, ["--preset", "front"])]
-VARIANTS = [[], ["--cone", "9"], ["--no-beams", "--rounds", "1"]]  # the first is measured, all are compared
+# All are compared; the first two are measured.
+VARIANTS = [[], ["--gpu-tree"], ["--cone", "9"], ["--no-beams", "--rounds", "1"], ["--no-beams", "--gpu-tree", "--rounds", "1"]]
 LAYOUTS = ["plain", "compact"]
+COLUMNS = {"plain": "", "compact": "compact, ", "tree": "tree, "}
 RAYS = ["primary", "shadow", "soft", "ao"]
 SIZE = ["--size", "1280x720", "--samples", "16"]
 
@@ -48,9 +50,9 @@ def measure(bakes, tracer, scene, log2, options):
     results = {layout: [compare(tracer, file, options + variant) for variant in VARIANTS]
                for layout, file in zip(LAYOUTS, [plain, compact])}
     found = [result for variants in results.values() for result in variants]
-    gpu = {layout: variants[0]["cuda"] for layout, variants in results.items()}
+    gpu = {layout: variants[0]["cuda"] for layout, variants in results.items()} | {"tree": results["plain"][1]["cuda"]}
     cpu = results["plain"][0]["cpu"]
-    row = [f"{scene} {label(bakes.log2(log2))}³", *[f"{rate(gpu[layout], kind):.0f}" for layout in LAYOUTS for kind in RAYS],
+    row = [f"{scene} {label(bakes.log2(log2))}³", *[f"{rate(gpu[layout], kind):.0f}" for layout in COLUMNS for kind in RAYS],
            *[f"{rate(gpu['plain'], kind) / rate(cpu, kind):.0f}" for kind in RAYS]]
     return [row], sum(r["pixels"] for r in found), sum(r["different"] for r in found), gpu["plain"]["device"]
 
@@ -67,7 +69,7 @@ def main():
         own, compared, differing, name = measure(bakes, options.tracer.resolve(), *case)
         rows, pixels, different, device = rows + own, pixels + compared, different + differing, name or device
     text = (f"{device}, beside {processor()}: {different} of {pixels:,} pixels differ. MRays/s:\n\n" +
-            table(["grid", *[f"{what}{kind}" for what in ("", "compact, ", "GPU / CPU, ") for kind in RAYS]], rows))
+            table(["grid", *[f"{what}{kind}" for what in (*COLUMNS.values(), "GPU / CPU, ") for kind in RAYS]], rows))
     print(text)
     if not options.coarser:
         fill(RESULTS / "tracing.md", {"trace cuda": text})

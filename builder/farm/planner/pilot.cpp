@@ -25,6 +25,11 @@ double extrapolate(double coarse, double sample_coarse, double sample_fine) {
   return sample_coarse > 0 ? sample_fine * std::pow(coarse / sample_coarse, kRepetition) : coarse;
 }
 
+void add_triangles(const TriangleBin& bin, ShardWork* shard) {
+  shard->triangles += bin.triangles;
+  shard->heaviest_bin = std::max(shard->heaviest_bin, bin.triangles);
+}
+
 }  // namespace
 
 Pilot::Pilot(const Grid& grid, const std::vector<TriangleBin>& bins, SpillFile* file,
@@ -95,7 +100,11 @@ Pilot::Sample Pilot::survey_sample(int level) const {
   Sample sample;
   for (const size_t b : bins)
     survey.count(
-        file_, bins_[b], [&](uint64_t cell) { return coarse_.at(cell).draws > 0; },
+        file_, bins_[b],
+        [&](uint64_t cell) {
+          const auto found = coarse_.find(cell);
+          return found != coarse_.end() && found->second.draws > 0;
+        },
         [&](uint64_t cell, double cpu) { sample.cpu[cell] += cpu; });
   sample.found = survey.found();
   return sample;
@@ -128,17 +137,22 @@ NodeCounts Pilot::fine_nodes(const NodeCounts& coarse) const {
 std::vector<ShardWork> Pilot::works_of(const std::vector<CellRange>& shards) const {
   std::vector<ShardWork> works;
   for (const CellRange& cells : shards) {
-    ShardWork shard;
+    ShardWork& shard = works.emplace_back();
+    if (shards.size() == 1) {  // the whole scene was surveyed
+      for (const TriangleBin& bin : bins_) add_triangles(bin, &shard);
+      shard.cost = cost();
+      shard.found = found();
+      break;
+    }
     Survey survey = this->survey(level_);
     for (const TriangleBin& bin : bins_of(bins_, cells, grid_.levels)) {
-      shard.triangles += bin.triangles;
-      shard.heaviest_bin = std::max(shard.heaviest_bin, bin.triangles);
-      survey.count(
+      add_triangles(bin, &shard);
+      const bool counted = survey.count(
           file_, bin, [&](uint64_t cell) { return cell >= cells.begin && cell < cells.end; },
           [&](uint64_t, double cpu) { shard.cost += growth_ * cpu; });
+      if (!counted) shard.cost += kUnsurveyedTriangle * double(bin.triangles);
     }
     shard.found = fine_nodes(survey.found());
-    works.push_back(shard);
   }
   return works;
 }

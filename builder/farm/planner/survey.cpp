@@ -29,6 +29,27 @@ NodeCounts counts_of(const NodeTable& table) {
   return counts;
 }
 
+// Whether the triangle may meet a cell of `level` that passes: its box does, or has many cells.
+bool may_meet(const LatticeTriangle& triangle, const Grid& grid, int level,
+              const Survey::CellFilter& filter) {
+  constexpr int64_t kManyCells = 64;
+  const LatticeBox box = box_of(triangle);
+  const int shift = grid.levels - level + grid.fraction();
+  int64_t first[3], last[3], cells = 1;
+  for (int a = 0; a < 3; ++a) {
+    first[a] = std::max<int64_t>((box.min[a] - 1) >> shift, 0);  // cells that it touches, too
+    last[a] = std::min<int64_t>(box.max[a] >> shift, (int64_t(1) << level) - 1);
+    cells *= std::max<int64_t>(last[a] - first[a] + 1, 0);
+    if (cells > kManyCells) return true;
+  }
+  for (int64_t i = 0; i < cells; ++i) {
+    const int64_t y = last[1] - first[1] + 1, z = last[2] - first[2] + 1;
+    const LatticePoint cell(first[0] + i / (y * z), first[1] + i / z % y, first[2] + i % z);
+    if (filter(morton(cell))) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Grid coarser_grid(const Grid& grid, int level) {
@@ -78,7 +99,10 @@ bool Survey::count(SpillFile* file, const TriangleBin& bin, const CellFilter& fi
   CutRecords cuts;  // estimated whole
   for (; reader.read(kSurveyBatch, &triangles, &cuts); triangles.clear(), cuts.clear()) {
     check_interrupt();
-    for (const LatticeTriangle& triangle : triangles) tree.add(shifted(triangle, shift));
+    for (const LatticeTriangle& triangle : triangles) {
+      const LatticeTriangle coarse = shifted(triangle, shift);
+      if (!filter || may_meet(coarse, grid_, cell_level_, filter)) tree.add(coarse);
+    }
     if (tree.bytes(1) > config_.triangle_bytes) return false;
   }
   tree.seal();

@@ -5,6 +5,8 @@
 #include <string>
 
 #include "streaming/error.h"
+#include "verify/trace/kernel/tree64.h"
+#include "verify/trace/kernel/walk64.h"
 #include "verify/trace/program/device.h"
 
 namespace svdag {
@@ -59,15 +61,37 @@ __global__ void beam_kernel(const __grid_constant__ DagView dag,
   spans[tile] = tile_span(dag, work.picture, tile % columns * kTile, tile / columns * kTile);
 }
 
+// What rays are traced through: the file, ...
+struct FileTracer {
+  DagView dag;
+  __device__ Hit closest(const Ray& ray, const Span& span, const Cut& cut) const {
+    return trace_closest(dag, ray, span, cut);
+  }
+};
+
+// ... or the 64-tree of it, without cuts.
+struct TreeTracer {
+  Tree64View tree;
+  __device__ Hit closest(const Ray& ray, const Span& span, const Cut&) const {
+    Walk64 walk;
+    if (walk.start(tree, ray, span)) {
+      while (walk.step(tree, PlainCells::of(tree, walk.times(), walk.visit()))) {
+      }
+    }
+    return walk.hit(tree);
+  }
+};
+
 // One block per tile.
+template <class Tracing>
 __global__ void __launch_bounds__(kBlock, kBlocks)
-    primary_kernel(const __grid_constant__ DagView dag, const __grid_constant__ Workload work,
+    primary_kernel(const __grid_constant__ Tracing tracing, const __grid_constant__ Workload work,
                    uint32_t columns, const Span* spans, Hit* hits) {
   const uint32_t x = blockIdx.x % columns * kTile + threadIdx.x % kTile;
   const uint32_t y = blockIdx.x / columns * kTile + threadIdx.x / kTile;
   if (x >= work.picture.width || y >= work.picture.height) return;
   const Span span = work.beams ? spans[blockIdx.x] : Span{};
-  hits[size_t(y) * work.picture.width + x] = trace_closest(dag, work.picture.ray(x, y), span);
+  hits[size_t(y) * work.picture.width + x] = tracing.closest(work.picture.ray(x, y), span, {});
 }
 
 __global__ void surfel_kernel(const __grid_constant__ DagView dag,
@@ -87,17 +111,25 @@ __global__ void layer_kernel(const __grid_constant__ DagView dag,
 }
 
 // One thread per ray; the rays of a pixel are adjacent.
+template <class Tracing>
 __global__ void __launch_bounds__(kBlock, kBlocks)
-    secondary_kernel(const __grid_constant__ DagView dag, const __grid_constant__ Workload work,
+    secondary_kernel(const __grid_constant__ Tracing tracing, const __grid_constant__ Workload work,
                      int kind, uint32_t per_pixel, const Surfel* surfels, uint32_t* blocked) {
   const uint64_t ray = uint64_t(blockIdx.x) * blockDim.x + threadIdx.x;
   const uint64_t pixel = ray / per_pixel;
   if (pixel >= uint64_t(work.picture.width) * work.picture.height) return;
   if (!surfels[pixel].found) return;
-  Tracer tracer(dag);
   const Ray secondary = secondary_ray(work, kind, surfels[pixel], pixel, uint32_t(ray % per_pixel));
-  if (tracer.closest(secondary, secondary_span(work, kind), secondary_cut(work, kind)).found)
+  if (tracing.closest(secondary, secondary_span(work, kind), secondary_cut(work, kind)).found)
     atomicAdd(&blocked[pixel], 1U);
+}
+
+// Calls launch(tracing) with the tree if there is one and rays are not cut.
+template <typename Launch>
+void with_tracing(const DagView& dag, const Tree64View& tree, const Cut& cut,
+                  const Launch& launch) {
+  if (tree.empty() || cut.cuts(dag.levels)) return launch(FileTracer{dag});
+  launch(TreeTracer{tree});
 }
 
 unsigned blocks_for(uint64_t threads) {
@@ -181,9 +213,16 @@ TraceResults trace_on_cuda(const PlainFile& file, const Workload& work) {
                                           : 0;
   require_free_memory(file.words.size() * 8 + index_bytes + tiles * sizeof(Span) +
                       pixels * (sizeof(Hit) + sizeof(Surfel) + sizeof(uint32_t)));
-  const DeviceArray<uint64_t> copy(file.words.size());
+  const Tree64 built = work.gpu_tree ? Tree64(file.view) : Tree64();
+  require_free_memory(built.bytes());
+  const DeviceArray<uint64_t> copy(file.words.size()), words(built.bytes() / sizeof(uint64_t));
   copy.upload(file.words.data());
   const DagView dag = moved_view(file.view, file.words.data(), copy.data());
+  Tree64View tree = built.view();
+  if (!tree.empty()) {
+    words.upload(tree.words);
+    tree.words = words.data();
+  }
   const DeviceArray<Span> spans(tiles);
   const DeviceArray<Hit> hits(pixels);
   const DeviceArray<Surfel> surfels(pixels);
@@ -192,7 +231,9 @@ TraceResults trace_on_cuda(const PlainFile& file, const Workload& work) {
   results.seconds[kPrimaryRays] = min_seconds(work.rounds, [&] {
     if (work.beams)
       beam_kernel<<<blocks_for(tiles), kBlock>>>(dag, work, columns, tiles, spans.data());
-    primary_kernel<<<tiles, kBlock>>>(dag, work, columns, spans.data(), hits.data());
+    with_tracing(dag, tree, {}, [&](const auto& tracing) {
+      primary_kernel<<<tiles, kBlock>>>(tracing, work, columns, spans.data(), hits.data());
+    });
   });
   surfel_kernel<<<blocks_for(pixels), kBlock>>>(dag, work, hits.data(), surfels.data());
   check(cudaGetLastError(), "starting a kernel");
@@ -207,8 +248,10 @@ TraceResults trace_on_cuda(const PlainFile& file, const Workload& work) {
     results.rays[kind] = found * per_pixel;
     results.seconds[kind] = min_seconds(work.rounds, [&] {
       blocked.clear();
-      secondary_kernel<<<blocks_for(pixels * per_pixel), kBlock>>>(dag, work, kind, per_pixel,
-                                                                   surfels.data(), blocked.data());
+      with_tracing(dag, tree, secondary_cut(work, kind), [&](const auto& tracing) {
+        secondary_kernel<<<blocks_for(pixels * per_pixel), kBlock>>>(
+            tracing, work, kind, per_pixel, surfels.data(), blocked.data());
+      });
     });
     blocked.download(&results.blocked[kind]);
   }

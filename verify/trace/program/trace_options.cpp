@@ -43,6 +43,8 @@ void add_options(CLI::App* app, TraceOptions* options) {
   app->add_flag_callback(
       "--no-beams", [=] { options->beams = false; },
       "Primary rays start at the camera (same hits)");
+  app->add_flag("--gpu-tree", options->gpu_tree,
+                "A GPU traces a 64-tree, made of the file at first, as the processor does (same hits)");
   from_to(app->add_option("--rounds", options->rounds,
                           "Repeat N times and report the shortest time (default 3)"),
           1, 1000)
@@ -85,6 +87,7 @@ Workload make_workload(const TraceOptions& options, const PlainFile& file) {
   apply_light(view, file.view, &work.light);
   apply_rays(view, file.view, &work.secondary);
   work.beams = options.beams;
+  work.gpu_tree = options.gpu_tree;
   work.rounds = options.rounds;
   work.threads = options.threads;
   return work;

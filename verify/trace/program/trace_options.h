@@ -17,6 +17,7 @@ struct TraceOptions {
   uint32_t rounds = 3;
   unsigned threads = 0;  // 0: one per processor
   bool beams = true;
+  bool gpu_tree = false;
   bool compare = false;             // trace on both devices, and compare
   bool json = false;                // print one line of JSON instead of a table
   std::vector<std::string> layers;  // at most one: trace only it

@@ -1,0 +1,179 @@
+#!/usr/bin/env python3
+"""`make bench-billion`: bakes a scan of a billion triangles at 64K³ with 4 GiB, on a small disk.
+
+The dry run's prediction is compared with the bake, the progress line's remaining time with the time that really remained; a
+second bake is killed twice and resumed to the same bytes; 100,000 bricks are judged. The figures are written to
+build/bench/billion.json and between the markers in docs/results/performance.md. 60 GB of disk must be free; an hour or two.
+"""
+import argparse
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import time
+
+from bakes import Bakes, label
+from bench import OUT, PAGE, ROOT, fill
+from bench_tables import table
+from out_of_core import MARGIN, bytes_of
+
+sys.path.append(str(ROOT / "tests" / "fault"))
+from peak import Peak  # noqa: E402
+
+RESULTS = OUT / "billion.json"
+SCENE, LOG2, MEMORY = "scan 1G", 16, "4G"
+BRICKS = 100_000
+GB = 1e9
+LEFT = re.compile(rb" ([\d:]+)  about ([\d:]+) left")
+OBSERVED = 0.1, 0.9  # shares of the time in which the remaining time is compared
+POLL_SECONDS = 0.05
+
+
+def seconds_of(clock):
+    total = 0
+    for part in clock.split(b":"):
+        total = 60 * total + int(part)
+    return total
+
+
+class Disk:
+    """The fullest that a file system became, over its state at the start."""
+
+    def __init__(self, folder):
+        self.folder, self.most = folder, 0
+        self.before = shutil.disk_usage(folder).used
+
+    def poll(self):
+        self.most = max(self.most, shutil.disk_usage(self.folder).used - self.before)
+
+
+class Bench:
+    def __init__(self, programs, memory):
+        self.bakes = Bakes(programs, OUT)
+        self.programs, self.memory = programs, memory
+        self.scene = self.bakes.scene(SCENE)
+        self.dag, self.report = self.bakes.dag_file(), OUT / "report.json"
+
+    def command(self, *options):
+        return [self.programs / "svdag", "build", self.scene, "-r", label(LOG2), "-o", self.dag, "-m", self.memory, *options]
+
+    def predict(self):
+        begin = time.monotonic()
+        out = subprocess.run(self.command("--dry-run", "--json"), check=True, capture_output=True).stdout
+        return {**json.loads(out), "took": time.monotonic() - begin}
+
+    def bake(self):
+        """The figures of one bake, and what the progress line said: (elapsed, remaining) in seconds."""
+        disk, lines = Disk(OUT), []
+        program = subprocess.Popen(self.command("--restart", "--progress", "--report", self.report), stderr=subprocess.PIPE,
+                                   stdout=subprocess.DEVNULL)
+        peak = Peak(program.pid, POLL_SECONDS)
+        peak.start()
+        while text := program.stderr.read1(1 << 16):
+            lines += [(seconds_of(a), seconds_of(b)) for a, b in LEFT.findall(text)]
+            disk.poll()
+        _, status, usage = os.wait4(program.pid, 0)
+        program.returncode = os.waitstatus_to_exitcode(status)
+        peak.done.set()
+        peak.join()
+        if program.returncode != 0:
+            sys.exit(f"svdag failed with exit code {program.returncode}")
+        report = json.loads(self.report.read_text())
+        scratch = report["scratch"]
+        return {"seconds": report["seconds"], "cpu": usage.ru_utime + usage.ru_stime, "triangles": report["triangles"],
+                "own": max(peak.own, 1024 * usage.ru_maxrss - peak.of_files), "counted": report["memory"]["peak_counted"],
+                "scratch": scratch, "file": report["file_bytes"], "scene": self.scene.stat().st_size,
+                "disk": disk.most + self.scene.stat().st_size, "read": (peak.read - scratch["read"]) / self.scene.stat().st_size,
+                "voxels": report["voxels"], "nodes": sum(report["nodes"]), "hash": report["content_hash"], "progress": lines}
+
+    def judge(self):
+        out = subprocess.run([self.programs / "svdag-verify", "mesh", "--sample", str(BRICKS), self.dag, self.scene, "--json"],
+                             capture_output=True).stdout
+        return json.loads(out)
+
+    def bake_killed(self, seconds):
+        """The content hash of a bake that is killed after a third of `seconds`, and again after another."""
+        start, own = "--restart", 0
+        for _ in range(2):
+            program = subprocess.Popen(self.command(start, "-q"))
+            time.sleep(seconds / 3)
+            assert program.poll() is None, "the bake ended before it was killed"
+            program.kill()
+            program.wait()
+            start = "--resume"
+        begin = time.monotonic()
+        subprocess.run(self.command("--resume", "-q", "--report", self.report), check=True)
+        report = json.loads(self.report.read_text())
+        assert report["resumed"]
+        return {"hash": report["content_hash"], "last": time.monotonic() - begin}
+
+
+def worst_remaining(bake):
+    """The largest error of the remaining time, as a share of the time that remained."""
+    total = bake["seconds"]["total"]
+    inside = [(t, left) for t, left in bake["progress"] if OBSERVED[0] * total <= t <= OBSERVED[1] * total]
+    return max(abs(left / (total - t) - 1) for t, left in inside)
+
+
+def ratio(predicted, measured):
+    return f"{predicted:,.1f} ({predicted / measured:.2f} times)"
+
+
+def rows(results):
+    if "bake" not in results:
+        return []
+    bake, dry = results["bake"], results.get("prediction")
+    seconds, limit = bake["seconds"], bytes_of(MEMORY) + MARGIN
+    disk = bake["scratch"]["peak"] + bake["file"]
+    out = [["wall, s", "2,700", f"{seconds['total']:,.0f}"],
+           ["– bounds, split, voxelize, sort, merge, write", "",
+            ", ".join(f"{seconds[phase]:,.0f}" for phase in ("bounds", "split", "voxelize", "sort", "merge", "write"))],
+           ["CPU, s", "", f"{bake['cpu']:,.0f}"],
+           ["peak, MiB", f"{limit >> 20:,}", f"{bake['own'] / 2**20:,.0f}"],
+           ["scratch, GB (bytes a triangle)", "", f"{bake['scratch']['peak'] / GB:.1f} ({bake['scratch']['peak'] / bake['triangles']:.1f})"],
+           ["output, GB", "", f"{bake['file'] / GB:.2f}"],
+           ["disk in all with the scene, GB", "60", f"{bake['disk'] / GB:.1f}"],
+           ["the scene was read, times", "2.2", f"{bake['read']:.2f}"],
+           ["written to scratch, GB", "", f"{bake['scratch']['written'] / GB:.1f}"],
+           ["voxels, unique nodes", "", f"{bake['voxels']:,}, {bake['nodes']:,}"],
+           ["largest error of the remaining time after a tenth", "25 %", f"{worst_remaining(bake):.0%}"]]
+    if dry is not None:
+        out += [["predicted CPU, s", "±30 %", ratio(dry["cpu_seconds"], bake["cpu"])],
+                ["predicted wall, s", "±30 %", ratio(dry["seconds"], seconds["total"])],
+                ["predicted memory, MiB", "±30 %", ratio(dry["memory_bytes"] / 2**20, bake["own"] / 2**20)],
+                ["predicted output and scratch, GB", "±30 %",
+                 ratio((dry["output_bytes"] + dry["scratch_bytes"]) / GB, disk / GB)]]
+    if "judged" in results:
+        out.append([f"of {BRICKS:,} bricks, wrong", "0", "none" if results["judged"].get("ok") else "**some**"])
+    if "killed" in results:
+        out.append(["killed twice and resumed", "same bytes", "same" if results["killed"]["hash"] == bake["hash"] else "**other**"])
+    return out
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--programs", type=pathlib.Path, default=ROOT / "build" / "release")
+    parser.add_argument("--steps", nargs="*", choices=["predict", "bake", "judge", "kill"],
+                        default=["predict", "bake", "judge", "kill"], help="the others keep their results")
+    parser.add_argument("--json-only", action="store_true", help="do not change docs/")
+    options = parser.parse_args()
+    bench = Bench(options.programs.resolve(), MEMORY)
+    results = json.loads(RESULTS.read_text()) if RESULTS.exists() else {}
+    steps = {"predict": ("prediction", bench.predict), "bake": ("bake", bench.bake), "judge": ("judged", bench.judge),
+             "kill": ("killed", lambda: bench.bake_killed(results["bake"]["seconds"]["total"]))}
+    for step in options.steps:
+        name, run = steps[step]
+        results[name] = run()
+        RESULTS.write_text(json.dumps(results, indent=1))
+        print(step, {key: value for key, value in results[name].items() if key != "progress"}, flush=True)
+    text = table(["figure", "at most", "now"], rows(results))
+    print(text)
+    if not options.json_only:
+        fill(PAGE, {"billion": text})
+
+
+if __name__ == "__main__":
+    main()
