@@ -22,8 +22,8 @@
 
 #include "builder/import/import.h"
 #include "io/dag/layers/layer_index.h"
-#include "io/dag/occupied_bounds.h"
 #include "io/dag/open_dag.h"
+#include "io/dag/walk/occupied_bounds.h"
 #include "python/queries.h"
 #include "streaming/file/checksum.h"
 #include "streaming/process/interrupt.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "io/dag/colours/colour_reader.h"
-#include "io/dag/nearest.h"
+#include "io/dag/walk/nearest.h"
 #include "streaming/memory/memory_budget.h"
 #include "streaming/process/interrupt.h"
 #include "verify/trace/kernel/processor.h"

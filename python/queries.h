@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "io/dag/colours/dag_colours.h"
-#include "io/dag/cube_walk.h"
+#include "io/dag/walk/cube_walk.h"
 #include "streaming/process/executor.h"
 #include "verify/trace/kernel/rays.h"
 
@@ -58,7 +58,7 @@ void look_up_colours(const ColourView& colours, uint32_t level,
 void fill_window_colours(const DagColours& colours, uint32_t level, const VoxelBox& box, Rgb* out,
                          Executor* executor);
 
-// The voxels nearest to points (io/dag/nearest.h), and the distances in world units. -1 and
+// The voxels nearest to points (io/dag/walk/nearest.h), and the distances in world units. -1 and
 // infinite where there is none within `max_distance`. A point of integers is the middle of a voxel.
 void find_nearest(const DagView& dag, std::span<const std::array<int64_t, 3>> points,
                   double max_distance, std::array<int32_t, 3>* voxels, double* distances,

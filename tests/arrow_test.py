@@ -15,11 +15,12 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 STREAMING = ["streaming", "streaming/file", "streaming/memory", "streaming/process", "streaming/spill",
              "streaming/sort"]
-SCENE = ["io/scene/cutouts", "io/scene/colours", "io/scene/mesh", "io/scene/polygons", "io/scene/decoders", "io/scene/readers", "io/scene/gltf", "io/scene"]
+SCENE = ["io/scene/cutouts", "io/scene/colours", "io/scene/mesh", "io/scene/polygons", "io/scene/decoders", "io/scene/readers", "io/scene/gltf/document",
+         "io/scene/gltf", "io/scene"]
 FORMATS = ["io/formats", "io/formats/dags", "io/formats/voxels", "io/formats/surfaces", "io/formats/points", "io/formats/vdb"]
 PHASES = ["builder/octree", "builder/overlap", "builder/overlap/kernels", "builder/winding", "builder/workspace", "builder/reduce",
           "builder/descend", "builder/split", "builder/run", "builder/merge"]
-DAG = ["io/dag", "io/dag/colours", "io/dag/layers", "io/dag/compact", "io/dag/pack", "io/dag/graph"]
+DAG = ["io/dag", "io/dag/colours", "io/dag/layers", "io/dag/compact", "io/dag/pack", "io/dag/graph", "io/dag/walk", "io/dag/write"]
 BAKE = STREAMING + ["io", *DAG] + SCENE + PHASES + ["builder/cache", "builder"]
 VERIFY = ["verify/integrity", "verify/judge", "verify/sample", "verify/compare", "verify/colours", "verify/view", "verify/report"]
 TRACE = ["verify/trace/kernel", "verify/trace", "verify/trace/judge", "verify/trace/program"]
@@ -39,7 +40,8 @@ ALLOWED = {
     "io/scene/mesh": STREAMING + ["io", "io/scene/cutouts", "io/scene/colours"],
     "io/scene/polygons": STREAMING + ["io", "io/scene/cutouts", "io/scene/colours", "io/scene/mesh"],
     "io/scene/readers": STREAMING + ["io", "io/values", "io/scene/cutouts", "io/scene/colours", "io/scene/mesh", "io/scene/polygons", "io/scene/decoders"],
-    "io/scene/gltf": STREAMING + ["io", "io/values", "io/scene/cutouts", "io/scene/colours", "io/scene/mesh", "io/scene/polygons", "io/scene/decoders", "io/scene/readers"],
+    "io/scene/gltf/document": STREAMING + ["io", "io/values", "io/scene/mesh", "io/scene/decoders"],
+    "io/scene/gltf": STREAMING + ["io", "io/values", "io/scene/cutouts", "io/scene/colours", "io/scene/mesh", "io/scene/polygons", "io/scene/decoders", "io/scene/readers", "io/scene/gltf/document"],
     "io/scene": STREAMING + ["io", "io/values", *DAG] + SCENE,
     **{room: STREAMING + ["io", *DAG] for room in DAG},
     "io/formats": STREAMING + ["io", *DAG],

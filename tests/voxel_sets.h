@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "io/dag/voxel_cube.h"
+#include "io/dag/walk/voxel_cube.h"
 #include "tests/verify/raw_dag.h"
 
 namespace svdag {

@@ -23,7 +23,7 @@
 
 #include "builder/cache/cell_store.h"
 #include "io/brick.h"
-#include "io/dag/node_key.h"
+#include "io/dag/write/node_key.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
 #include "streaming/file/file.h"

@@ -15,7 +15,7 @@
 #include "builder/colours/untouched_nodes.h"
 #include "builder/octree/morton.h"
 #include "builder/overlap/kernels/divide_list.h"
-#include "io/dag/occupied_bounds.h"
+#include "io/dag/walk/occupied_bounds.h"
 #include "io/lattice.h"
 #include "io/units.h"
 #include "streaming/error.h"

@@ -8,8 +8,8 @@
 
 #include "builder/colours/covered_node.h"
 #include "io/dag/colours/cube_colour.h"
-#include "io/dag/cube_walk.h"
 #include "io/dag/format.h"
+#include "io/dag/walk/cube_walk.h"
 #include "streaming/memory/memory_budget.h"
 
 namespace svdag {

@@ -16,7 +16,7 @@
 
 #include "builder/merge/level_source.h"
 #include "builder/merge/rank_maps.h"
-#include "io/dag/level_piece.h"
+#include "io/dag/write/level_piece.h"
 #include "streaming/counts.h"
 #include "streaming/error.h"
 #include "streaming/process/executor.h"
@@ -59,7 +59,7 @@ using MergeProgress = std::function<void(uint64_t, uint64_t)>;
 // Rejected: one range of keys per worker (the second could only be placed after the first); all
 // workers on one part of the sources at a time (they wait for each other every two milliseconds).
 //
-// `Output`: has encode(), append() and store() as a DagWriter does (io/dag/dag_writer.h).
+// `Output`: has encode(), append() and store() as a DagWriter does (io/dag/write/dag_writer.h).
 template <class Key, class Output>
 class LevelMerge {
  public:

@@ -8,7 +8,7 @@
 
 #include "builder/octree/grid_part.h"
 #include "builder/octree/sub_dag_root.h"
-#include "io/dag/node_key.h"
+#include "io/dag/write/node_key.h"
 
 namespace svdag {
 

@@ -16,7 +16,7 @@
 
 #include "builder/reduce/unique_set.h"
 #include "io/brick.h"
-#include "io/dag/node_key.h"
+#include "io/dag/write/node_key.h"
 #include "streaming/memory/multiply_fold.h"
 
 namespace svdag {

@@ -9,7 +9,7 @@
 
 #include "builder/octree/grid_part.h"
 #include "builder/octree/sub_dag_root.h"
-#include "io/dag/dag_writer.h"
+#include "io/dag/write/dag_writer.h"
 
 namespace svdag {
 
@@ -17,9 +17,9 @@ class BakeOutput {
  public:
   virtual ~BakeOutput() = default;
   // Levels are written from L-2 to 0, each once, with ascending, unique keys, in pieces
-  // (io/dag/level_piece.h): encode() adds keys to a piece, append() returns the index by which the
-  // level above refers to its first key, store() completes it. Indices ascend. One thread at a time
-  // appends; any may encode and store.
+  // (io/dag/write/level_piece.h): encode() adds keys to a piece, append() returns the index by
+  // which the level above refers to its first key, store() completes it. Indices ascend. One thread
+  // at a time appends; any may encode and store.
   virtual void begin_level(int level) = 0;
   virtual void encode(std::span<const Brick> bricks, LevelPiece* piece) const = 0;
   virtual void encode(std::span<const NodeKey> nodes, LevelPiece* piece) const = 0;

@@ -4,7 +4,7 @@
 #include <type_traits>
 
 #include "io/brick.h"
-#include "io/dag/node_key.h"
+#include "io/dag/write/node_key.h"
 #include "streaming/process/interrupt.h"
 
 namespace svdag {

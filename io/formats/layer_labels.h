@@ -4,8 +4,8 @@
 #include <bit>
 #include <optional>
 
-#include "io/dag/cube_walk.h"
 #include "io/dag/dag_file.h"
+#include "io/dag/walk/cube_walk.h"
 #include "io/voxel_source.h"
 
 namespace svdag {

@@ -19,7 +19,7 @@
 #include <optional>
 #include <string>
 
-#include "io/dag/voxel_cube.h"
+#include "io/dag/walk/voxel_cube.h"
 #include "io/units.h"
 
 namespace svdag {

@@ -3,7 +3,7 @@
 
 #include <bit>
 
-#include "io/dag/cube_walk.h"
+#include "io/dag/walk/cube_walk.h"
 #include "io/formats/voxel_colours.h"
 #include "io/voxel_source.h"
 #include "streaming/process/interrupt.h"

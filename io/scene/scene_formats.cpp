@@ -5,11 +5,11 @@
 #include <cctype>
 
 #include "io/scene/decoders/gzip.h"
+#include "io/scene/gltf/document/gltf_buffers.h"
+#include "io/scene/gltf/document/tile.h"
 #include "io/scene/gltf/gltf_animation.h"
-#include "io/scene/gltf/gltf_buffers.h"
 #include "io/scene/gltf/gltf_cut_out.h"
 #include "io/scene/gltf/gltf_images.h"
-#include "io/scene/gltf/tile.h"
 #include "io/scene/readers/mtl.h"
 #include "io/values/ply_header.h"
 #include "io/values/text_scan.h"
@@ -111,8 +111,7 @@ constexpr const char* kBySvdagUsd =
 constexpr const char* kByMeshLab = "convert it to .ply, for example with MeshLab or Open3D";
 constexpr const char* kByCloudCompare =
     "svdag bakes triangles: reconstruct a surface first, for example with CloudCompare";
-constexpr const char* kByImport =
-    "svdag import takes points; for triangles, reconstruct a surface";
+constexpr const char* kByImport = "svdag import takes points; for triangles, reconstruct a surface";
 
 struct ForeignFormat {
   std::string_view endings;  // separated by spaces, with one at both ends

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "io/dag/cube_at.h"
 #include "io/dag/dag_file.h"
 #include "io/dag/open_dag.h"
+#include "io/dag/walk/cube_at.h"
 #include "streaming/error.h"
 #include "streaming/file/atomic_file.h"
 #include "streaming/file/command_files.h"

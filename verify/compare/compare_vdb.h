@@ -11,7 +11,7 @@
 
 #include <vector>
 
-#include "io/dag/cube_walk.h"
+#include "io/dag/walk/cube_walk.h"
 #include "io/formats/vdb.h"
 #include "verify/compare/index_map.h"
 

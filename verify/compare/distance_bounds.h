@@ -24,8 +24,8 @@
 #include <span>
 #include <vector>
 
-#include "io/dag/cube_walk.h"
 #include "io/dag/format.h"
+#include "io/dag/walk/cube_walk.h"
 #include "verify/sample/compare.h"
 
 namespace svdag {

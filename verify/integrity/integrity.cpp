@@ -9,7 +9,7 @@
 #include "io/dag/colours/colour_writer.h"
 #include "io/dag/compact/compact_writer.h"
 #include "io/dag/graph/select.h"
-#include "io/dag/node_starts.h"
+#include "io/dag/write/node_starts.h"
 #include "io/grid.h"
 #include "streaming/printable.h"
 #include "verify/integrity/union_check.h"

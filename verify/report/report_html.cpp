@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "io/dag/occupied_bounds.h"
+#include "io/dag/walk/occupied_bounds.h"
 #include "io/json.h"
 #include "io/units.h"
 #include "io/verdict.h"

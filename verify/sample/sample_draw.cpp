@@ -1,7 +1,7 @@
 // Draws bricks from a DAG, and combines the draws from file and scene.
 #include <bit>
 
-#include "io/dag/node_starts.h"
+#include "io/dag/write/node_starts.h"
 #include "streaming/error.h"
 #include "verify/sample/sample.h"
 

@@ -3,7 +3,7 @@
 #include <glm/common.hpp>
 #include <nlohmann/json.hpp>
 
-#include "io/dag/occupied_bounds.h"
+#include "io/dag/walk/occupied_bounds.h"
 #include "streaming/file/checksum.h"
 #include "streaming/file/file.h"
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "builder/commands/export/export.h"
-#include "io/dag/cube_walk.h"
 #include "io/dag/dag_file.h"
+#include "io/dag/walk/cube_walk.h"
 #include "io/formats/surfaces/surface.h"
 #include "streaming/memory/memory_budget.h"
 

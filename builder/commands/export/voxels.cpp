@@ -2,7 +2,7 @@
 #include <functional>
 
 #include "builder/commands/export/export_part.h"
-#include "io/dag/occupied_bounds.h"
+#include "io/dag/walk/occupied_bounds.h"
 #include "io/formats/voxels/binvox.h"
 #include "io/formats/voxels/distances.h"
 #include "io/formats/voxels/npz.h"

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "io/dag/dag_file.h"
-#include "io/dag/dag_file_output.h"
+#include "io/dag/write/dag_file_output.h"
 #include "streaming/file/checksum.h"
 
 namespace svdag {

@@ -8,7 +8,7 @@
 
 #include "io/dag/compact/compact_classes.h"
 #include "io/dag/metadata.h"
-#include "io/dag/node_starts.h"
+#include "io/dag/write/node_starts.h"
 #include "streaming/file/atomic_file.h"
 #include "streaming/file/checksum.h"
 #include "streaming/process/interrupt.h"

@@ -17,8 +17,8 @@
 // for every shared node.
 #pragma once
 
-#include "io/dag/dag_writer.h"
 #include "io/dag/graph/node_graph.h"
+#include "io/dag/write/dag_writer.h"
 #include "streaming/process/executor.h"
 
 namespace svdag {

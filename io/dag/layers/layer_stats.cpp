@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "io/dag/node_starts.h"
+#include "io/dag/write/node_starts.h"
 #include "streaming/process/interrupt.h"
 
 namespace svdag {

@@ -29,7 +29,7 @@
 #include <vector>
 
 #include "io/brick.h"
-#include "io/dag/node_key.h"
+#include "io/dag/write/node_key.h"
 
 namespace svdag {
 

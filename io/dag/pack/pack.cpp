@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cstring>
 
-#include "io/dag/node_starts.h"
 #include "io/dag/pack/node_streams.h"
 #include "io/dag/pack/pack_format.h"
 #include "io/dag/pack/zstd.h"
+#include "io/dag/write/node_starts.h"
 #include "streaming/file/atomic_file.h"
 #include "streaming/file/checksum.h"
 #include "streaming/process/interrupt.h"

@@ -6,7 +6,7 @@
 
 #include "io/brick.h"
 #include "io/dag/dag_file.h"
-#include "io/dag/node_starts.h"
+#include "io/dag/write/node_starts.h"
 #include "streaming/counts.h"
 #include "streaming/memory/huge_vector.h"
 

@@ -13,20 +13,20 @@
 #include <utility>
 #include <vector>
 
+#include "io/scene/gltf/document/gltf_buffers.h"
+#include "io/scene/gltf/document/gltf_document.h"
+#include "io/scene/gltf/document/gltf_elements.h"
+#include "io/scene/gltf/document/tile.h"
 #include "io/scene/gltf/gltf_animation.h"
 #include "io/scene/gltf/gltf_assembly.h"
-#include "io/scene/gltf/gltf_buffers.h"
 #include "io/scene/gltf/gltf_cut_out.h"
-#include "io/scene/gltf/gltf_document.h"
 #include "io/scene/gltf/gltf_draco.h"
-#include "io/scene/gltf/gltf_elements.h"
 #include "io/scene/gltf/gltf_images.h"
 #include "io/scene/gltf/gltf_kept.h"
 #include "io/scene/gltf/gltf_mean_colours.h"
 #include "io/scene/gltf/gltf_nodes.h"
 #include "io/scene/gltf/gltf_paint.h"
 #include "io/scene/gltf/gltf_pose.h"
-#include "io/scene/gltf/tile.h"
 #include "io/scene/polygons/mesh_writer.h"
 #include "streaming/error.h"
 

@@ -6,8 +6,8 @@
 #include <set>
 #include <vector>
 
-#include "io/scene/gltf/gltf_elements.h"
-#include "io/scene/gltf/tile.h"
+#include "io/scene/gltf/document/gltf_elements.h"
+#include "io/scene/gltf/document/tile.h"
 #include "io/trigonometry.h"
 #include "streaming/error.h"
 #include "streaming/process/interrupt.h"

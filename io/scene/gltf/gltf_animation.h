@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "io/scene/gltf/gltf_buffers.h"
-#include "io/scene/gltf/gltf_document.h"
+#include "io/scene/gltf/document/gltf_buffers.h"
+#include "io/scene/gltf/document/gltf_document.h"
 #include "io/scene/mesh/mesh_reader.h"
 
 namespace svdag {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "io/affine.h"
-#include "io/scene/gltf/gltf_elements.h"
+#include "io/scene/gltf/document/gltf_elements.h"
 #include "streaming/error.h"
 
 namespace svdag {

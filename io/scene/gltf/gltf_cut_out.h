@@ -10,8 +10,8 @@
 
 #include "io/scene/cutouts/alpha_images.h"
 #include "io/scene/cutouts/cut_out.h"
-#include "io/scene/gltf/gltf_buffers.h"
-#include "io/scene/gltf/gltf_document.h"
+#include "io/scene/gltf/document/gltf_buffers.h"
+#include "io/scene/gltf/document/gltf_document.h"
 #include "io/scene/gltf/gltf_texture.h"
 #include "io/scene/mesh/name_filter.h"
 

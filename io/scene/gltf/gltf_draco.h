@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "io/scene/decoders/draco.h"
-#include "io/scene/gltf/gltf_buffers.h"
+#include "io/scene/gltf/document/gltf_buffers.h"
 
 namespace svdag {
 

@@ -1,6 +1,6 @@
 #include "io/scene/gltf/gltf_images.h"
 
-#include "io/scene/gltf/gltf_uri.h"
+#include "io/scene/gltf/document/gltf_uri.h"
 #include "streaming/error.h"
 
 namespace svdag {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "io/scene/decoders/image.h"
-#include "io/scene/gltf/gltf_buffers.h"
-#include "io/scene/gltf/gltf_document.h"
+#include "io/scene/gltf/document/gltf_buffers.h"
+#include "io/scene/gltf/document/gltf_document.h"
 
 namespace svdag {
 

@@ -13,7 +13,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "io/scene/gltf/gltf_elements.h"
+#include "io/scene/gltf/document/gltf_elements.h"
 #include "io/triangle.h"
 #include "streaming/memory/memory_budget.h"
 

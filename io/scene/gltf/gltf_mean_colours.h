@@ -14,8 +14,8 @@
 #include "io/colour.h"
 #include "io/scene/colours/linear_images.h"
 #include "io/scene/colours/used_mean.h"
-#include "io/scene/gltf/gltf_buffers.h"
-#include "io/scene/gltf/gltf_document.h"
+#include "io/scene/gltf/document/gltf_buffers.h"
+#include "io/scene/gltf/document/gltf_document.h"
 #include "io/scene/gltf/gltf_texture.h"
 
 namespace svdag {

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "io/affine.h"
-#include "io/scene/gltf/gltf_buffers.h"
-#include "io/scene/gltf/gltf_document.h"
-#include "io/scene/gltf/gltf_elements.h"
+#include "io/scene/gltf/document/gltf_buffers.h"
+#include "io/scene/gltf/document/gltf_document.h"
+#include "io/scene/gltf/document/gltf_elements.h"
 #include "io/scene/mesh/mesh_reader.h"
 
 namespace svdag {

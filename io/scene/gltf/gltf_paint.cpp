@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "io/scene/gltf/gltf_elements.h"
+#include "io/scene/gltf/document/gltf_elements.h"
 #include "io/scene/gltf/gltf_images.h"
 #include "streaming/error.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "io/scene/gltf/gltf_elements.h"
+#include "io/scene/gltf/document/gltf_elements.h"
 #include "io/scene/gltf/gltf_nodes.h"
 #include "streaming/error.h"
 

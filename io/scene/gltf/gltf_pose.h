@@ -20,8 +20,8 @@
 #include <vector>
 
 #include "io/affine.h"
-#include "io/scene/gltf/gltf_buffers.h"
-#include "io/scene/gltf/gltf_document.h"
+#include "io/scene/gltf/document/gltf_buffers.h"
+#include "io/scene/gltf/document/gltf_document.h"
 
 namespace svdag {
 

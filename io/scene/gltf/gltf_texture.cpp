@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "io/scene/gltf/gltf_elements.h"
+#include "io/scene/gltf/document/gltf_elements.h"
 #include "io/trigonometry.h"
 #include "streaming/error.h"
 

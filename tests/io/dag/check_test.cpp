@@ -12,7 +12,7 @@
 #include <span>
 
 #include "io/dag/dag_file.h"
-#include "io/dag/dag_writer.h"
+#include "io/dag/write/dag_writer.h"
 #include "streaming/error.h"
 #include "tests/expect_error.h"
 #include "tests/repair_checksums.h"

@@ -9,10 +9,10 @@
 #include <functional>
 #include <random>
 
-#include "io/dag/dag_writer.h"
 #include "io/dag/pack/node_streams.h"
 #include "io/dag/pack/pack_format.h"
 #include "io/dag/pack/unpack.h"
+#include "io/dag/write/dag_writer.h"
 #include "tests/expect_error.h"
 #include "tests/io/dag/colours/painted_cubes.h"
 #include "tests/repair_packed.h"

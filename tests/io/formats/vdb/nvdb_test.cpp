@@ -7,7 +7,7 @@
 
 #include <fstream>
 
-#include "io/dag/cube_walk.h"
+#include "io/dag/walk/cube_walk.h"
 #include "io/formats/vdb.h"
 #include "tests/temp_folder.h"
 #include "tests/voxel_sets.h"

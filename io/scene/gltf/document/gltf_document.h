@@ -2,7 +2,7 @@
 // space.
 //
 // Notation: a document is the parsed JSON without members that do not concern geometry
-// (io/scene/gltf/gltf_json.h); BIN is the GLB's second chunk.
+// (io/scene/gltf/document/gltf_json.h); BIN is the GLB's second chunk.
 // Rejected: tinygltf and cgltf, which hold every buffer in memory (33 million triangles per second
 // and 37 bytes per triangle against 110+ and 19 here).
 #pragma once
@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "io/scene/gltf/gltf_json.h"
+#include "io/scene/gltf/document/gltf_json.h"
 #include "streaming/file/file.h"
 #include "streaming/memory/memory_budget.h"
 

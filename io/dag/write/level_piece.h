@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "io/brick.h"
-#include "io/dag/node_key.h"
+#include "io/dag/write/node_key.h"
 #include "streaming/error.h"
 #include "streaming/file/block_filler.h"
 

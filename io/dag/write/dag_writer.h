@@ -16,10 +16,10 @@
 
 #include "io/brick.h"
 #include "io/dag/dag_file.h"
-#include "io/dag/dag_file_output.h"
 #include "io/dag/layers/layer_table.h"
-#include "io/dag/level_piece.h"
-#include "io/dag/node_key.h"
+#include "io/dag/write/dag_file_output.h"
+#include "io/dag/write/level_piece.h"
+#include "io/dag/write/node_key.h"
 #include "io/grid.h"
 #include "streaming/spill/work_array.h"
 
@@ -40,9 +40,9 @@ class DagWriter {
   // Appends a node to an inner level and returns the index of its first word. Nodes must ascend. A
   // full section is an Error (kOutput).
   uint32_t add_node(const NodeKey& children);
-  // The same for many keys of the level (io/dag/level_piece.h): encode() adds bricks of level L-2
-  // or nodes of another to *piece, append() returns the index of its first key, store() completes
-  // it. One thread at a time appends; any may encode and store.
+  // The same for many keys of the level (io/dag/write/level_piece.h): encode() adds bricks of level
+  // L-2 or nodes of another to *piece, append() returns the index of its first key, store()
+  // completes it. One thread at a time appends; any may encode and store.
   void encode(std::span<const Brick> bricks, LevelPiece* piece) const;
   void encode(std::span<const NodeKey> nodes, LevelPiece* piece) const;
   // Nodes of a level below the roots: their masks, and the children of all as in their keys,

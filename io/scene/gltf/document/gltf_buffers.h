@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "io/scene/gltf/gltf_document.h"
+#include "io/scene/gltf/document/gltf_document.h"
 #include "io/scene/mesh/mesh_reader.h"
 #include "streaming/file/file.h"
 #include "streaming/memory/memory_budget.h"

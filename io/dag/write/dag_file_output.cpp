@@ -1,4 +1,4 @@
-#include "io/dag/dag_file_output.h"
+#include "io/dag/write/dag_file_output.h"
 
 #include <cstring>
 #include <vector>

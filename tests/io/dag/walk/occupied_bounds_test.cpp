@@ -1,5 +1,5 @@
 // Tests that the bounds of a DAG are those of its list of voxels.
-#include "io/dag/occupied_bounds.h"
+#include "io/dag/walk/occupied_bounds.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
-#include "io/scene/gltf/tile.h"
+#include "io/scene/gltf/document/tile.h"
 
 #include <cmath>
 
-#include "io/scene/gltf/gltf_json.h"
-#include "io/scene/gltf/gltf_uri.h"
+#include "io/scene/gltf/document/gltf_json.h"
+#include "io/scene/gltf/document/gltf_uri.h"
 #include "io/values/endian.h"
 #include "streaming/error.h"
 

@@ -1,5 +1,5 @@
 // The tree built from events against nlohmann-json's own, which keeps everything.
-#include "io/scene/gltf/gltf_json.h"
+#include "io/scene/gltf/document/gltf_json.h"
 
 #include <gtest/gtest.h>
 

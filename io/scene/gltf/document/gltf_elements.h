@@ -11,7 +11,7 @@
 #include <span>
 #include <string>
 
-#include "io/scene/gltf/gltf_buffers.h"
+#include "io/scene/gltf/document/gltf_buffers.h"
 #include "io/triangle.h"
 
 namespace svdag {

@@ -1,4 +1,4 @@
-#include "io/scene/gltf/tile.h"
+#include "io/scene/gltf/document/tile.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "io/dag/dag_writer.h"
+#include "io/dag/write/dag_writer.h"
 
 #include <gtest/gtest.h>
 

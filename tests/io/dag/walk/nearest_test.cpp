@@ -1,5 +1,5 @@
 // Tests that the nearest voxel is the one that a search of all voxels finds, at any distance.
-#include "io/dag/nearest.h"
+#include "io/dag/walk/nearest.h"
 
 #include <gtest/gtest.h>
 

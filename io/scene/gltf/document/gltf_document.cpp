@@ -1,4 +1,4 @@
-#include "io/scene/gltf/gltf_document.h"
+#include "io/scene/gltf/document/gltf_document.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include "io/scene/decoders/draco.h"
 #include "io/scene/decoders/meshopt.h"
-#include "io/scene/gltf/gltf_json.h"
+#include "io/scene/gltf/document/gltf_json.h"
 #include "streaming/error.h"
 
 namespace svdag {

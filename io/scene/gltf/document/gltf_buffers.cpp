@@ -1,11 +1,11 @@
-#include "io/scene/gltf/gltf_buffers.h"
+#include "io/scene/gltf/document/gltf_buffers.h"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
 #include "io/scene/decoders/meshopt.h"
-#include "io/scene/gltf/gltf_uri.h"
+#include "io/scene/gltf/document/gltf_uri.h"
 #include "streaming/error.h"
 
 namespace svdag {

@@ -1,4 +1,4 @@
-#include "io/scene/gltf/gltf_elements.h"
+#include "io/scene/gltf/document/gltf_elements.h"
 
 #include <algorithm>
 #include <cstring>

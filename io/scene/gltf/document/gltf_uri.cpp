@@ -1,4 +1,4 @@
-#include "io/scene/gltf/gltf_uri.h"
+#include "io/scene/gltf/document/gltf_uri.h"
 
 #include <unistd.h>
 

@@ -1,5 +1,5 @@
 // Tests that blocks and full cubes are exactly the voxels of a box of a level.
-#include "io/dag/cube_walk.h"
+#include "io/dag/walk/cube_walk.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Tests that a point query returns the voxel or the largest empty cube of the octree around it.
-#include "io/dag/cube_at.h"
+#include "io/dag/walk/cube_at.h"
 
 #include <gtest/gtest.h>
 

@@ -15,7 +15,7 @@
 #include <string_view>
 
 #include "io/affine.h"
-#include "io/scene/gltf/gltf_document.h"
+#include "io/scene/gltf/document/gltf_document.h"
 #include "streaming/file/file.h"
 #include "streaming/memory/memory_budget.h"
 

@@ -1,4 +1,4 @@
-#include "io/dag/cube_walk.h"
+#include "io/dag/walk/cube_walk.h"
 
 #include "io/dag/dag_level.h"
 #include "io/dag/dag_stats.h"

@@ -1,4 +1,4 @@
-#include "io/dag/occupied_bounds.h"
+#include "io/dag/walk/occupied_bounds.h"
 
 #include <algorithm>
 #include <unordered_map>

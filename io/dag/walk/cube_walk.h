@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "io/dag/dag_view.h"
-#include "io/dag/voxel_cube.h"
+#include "io/dag/walk/voxel_cube.h"
 
 namespace svdag {
 

@@ -1,4 +1,4 @@
-#include "io/scene/gltf/gltf_json.h"
+#include "io/scene/gltf/document/gltf_json.h"
 
 #include <algorithm>
 #include <array>
