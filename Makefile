@@ -20,7 +20,8 @@
 #   bench-before     prints a table of this version beside another one, built in the folder BEFORE
 #   bench-giants     its table of bakes at 256K and 1M
 #   bench-sort       a table of external sorts, beside those of others
-#   bench-out-of-core  its table of bakes with little memory; 30 GB of disk
+#   bench-out-of-core  its table of bakes with little memory; 40 GB of disk
+#   bench-billion      its table of a scan of a billion triangles at 64K³; 60 GB of disk, an hour
 #   bench-cache  its table of bakes with --cache, after objects of a scene have moved
 #   bench-plan       what plans predict against what is measured: the tables of docs/results/farm.md
 #   bench-accuracy   run time against error: docs/results/accuracy.md, and its plots
@@ -66,7 +67,7 @@ PROGRAMS = build/$(PRESET)
 PYTHON = /usr/bin/python3 -B
 
 .PHONY: all deps build demo test test-sanitized test-farm test-python test-view test-vulkan stress fuzz-long bench bench-before bench-giants bench-sort \
-  bench-out-of-core bench-cache bench-accuracy bench-plan bench-vdb bench-trace bench-cuda bench-size bench-layers bench-colour bench-solid bench-exchange bench-python bundle wheel deb cuda arm64 \
+  bench-out-of-core bench-billion bench-cache bench-accuracy bench-plan bench-vdb bench-trace bench-cuda bench-size bench-layers bench-colour bench-solid bench-exchange bench-python bundle wheel deb cuda arm64 \
   pictures clean
 all: build
 
@@ -166,6 +167,9 @@ bench-sort: deps
 
 bench-out-of-core: build
 	@$(PYTHON) tests/bench/out_of_core.py --programs $(PROGRAMS)
+
+bench-billion: build
+	@$(PYTHON) tests/bench/billion.py --programs $(PROGRAMS)
 
 bench-cache: build
 	@$(PYTHON) tests/bench/cache.py --programs $(PROGRAMS)

@@ -45,6 +45,7 @@ class Phases {
     interval_.move_to(share.begin, share.end);
     progress_->phase(name, 0);
   }
+  const Progress::Interval& interval() const { return interval_; }  // of the phase
   void end() {
     if (use_ != nullptr) *use_ = {timer_.lap(), budget_->lap_peak()};
     use_ = nullptr;
@@ -185,13 +186,14 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   // The pass takes about as long as the bake.
   const Progress::Interval first_half(progress, 0, config.colours ? 0.5 : 1);
   Phases phases(progress, workspace->budget());
-  phases.begin("read bounds", kBoundsShare, &report.phases.bounds);
+  const bool reads_scene = config.ready == nullptr && !(saved && saved->split);
+  phases.begin("read bounds", {0, 0}, &report.phases.bounds);  // of unknown length
   const ChosenGrid chosen = read_grid(config, scene, saved);
   const Grid& grid = report.grid = chosen.grid;
   report.scene_bounds = chosen.scene_bounds;
   if (config.colours) check_colour_level(*config.colours, grid.levels);
-  disk_need->expect_triangles(chosen.triangles,
-                              workspace->shares().triangles / PackedTriangles::kMinBytes);
+  const uint64_t in_memory = workspace->shares().triangles / PackedTriangles::kMinBytes;
+  disk_need->expect_triangles(chosen.triangles, in_memory);
   const GridPart part =
       config.part ? GridPart::of_cells(*config.part, grid.levels) : GridPart::whole(grid.levels);
   phases.end();
@@ -201,7 +203,9 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   std::unique_ptr<CellStore> store;
   if (config.open_store) store = config.open_store(grid, report.rule, workspace->budget());
 
-  phases.begin("split", kSplitShare, &report.phases.split);
+  PhaseShares shares =
+      phase_shares({chosen.triangles, grid.levels, reads_scene, chosen.triangles > in_memory});
+  phases.begin("split", shares.split, &report.phases.split);
   const SplitConfig splitting = split_config(tools, chosen, part);
   SplitScene split;
   if (saved && saved->split) {
@@ -223,10 +227,11 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
     report.description_hash = hash_of_description(description->text());
   }
 
-  phases.begin("voxelize", kVoxelizeShare, &report.phases.voxelize);
+  shares = phase_shares({split.counts.scene.triangles, grid.levels, reads_scene, !split.tree});
+  phases.begin("voxelize", shares.voxelize, &report.phases.voxelize);
   const MortonSet done = finished_ranges(part, saved);
   RunCollector runs(grid, workspace, checkpoint, description, disk_need, config.output, store.get(),
-                    progress);
+                    &phases.interval());
   if (saved) {
     for (BakedRun& baked : saved->runs) runs.restore(std::move(baked));
   }
@@ -244,7 +249,7 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
       workspace->budget(), executor);
   voxelize(tools, grid, splitting, &split, done, &voxelizer);
 
-  phases.begin("sort", kSortShare, &report.phases.sort);
+  phases.begin("sort", shares.sort, &report.phases.sort);
   for (BakedRun& baked : voxelizer.finish(runs.set().spilled)) runs.add_last(std::move(baked));
   runs.take_from_store();
   report.cells = voxelizer.cells();
@@ -257,10 +262,10 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   if (!config.palette.empty()) apply_palette(config.palette, &report.layers);
   report.runs = set.runs.size();
 
-  phases.begin("merge", kMergeShare, &report.phases.merge);
+  phases.begin("merge", shares.merge, &report.phases.merge);
   const std::vector<SubDagRoot> tops = merge_runs(tools, &set, part, output.get());
 
-  phases.begin("write", kWriteShare, &report.phases.write);
+  phases.begin("write", shares.write, &report.phases.write);
   output->finish(tops, report.voxels, report.split.largest_snap, report.layers);
   std::ranges::sort(report.layers.layers, {}, &Layer::name);
   report.voxels = report.layers.default_voxels(report.voxels);

@@ -28,7 +28,8 @@ BinBaker::BinBaker(const Grid& grid, const SplitConfig& split, const MortonSet* 
       progress_(progress) {}
 
 void BinBaker::bake(SpillFile* file, const TriangleBin& all, const CellWindings* windings) {
-  if (done_ != nullptr && done_->coverage(all.range) == MortonSet::Coverage::kAll) return;
+  if (done_ != nullptr && done_->coverage(all.range) == MortonSet::Coverage::kAll)
+    return progress_->skip();
   TriangleBin bin = all;
   // Winding numbers are known where the bin begins, not where its voxels do.
   if (windings != nullptr) bin.cube = cube_of(bin.range, grid_.levels);

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "builder/bake/phase_shares.h"
-
 namespace svdag {
 namespace {
 
@@ -37,9 +35,7 @@ void RunCollector::save(BakedRun baked) {
   }
   if (checkpoint_->begun()) checkpoint_->save_run(baked);
   add(std::move(baked));
-  const auto [begin, end] = kVoxelizeShare;
-  const double share = std::clamp((progress_->share() - begin) / (end - begin), 0.0, 1.0);
-  disk_need_->expect_runs(set_.spilled_bytes, share);
+  disk_need_->expect_runs(set_.spilled_bytes, std::clamp(voxelizing_->share(), 0.0, 1.0));
 }
 
 void RunCollector::add_last(BakedRun baked) {

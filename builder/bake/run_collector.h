@@ -18,7 +18,7 @@ class RunCollector {
   // All must outlive the collector; `store` may be null.
   RunCollector(const Grid& grid, Workspace* workspace, Checkpoint* checkpoint,
                Description* description, DiskNeed* disk_need, const std::string& output,
-               CellStore* store, Progress* progress)
+               CellStore* store, const Progress::Interval* voxelizing)
       : grid_(grid),
         workspace_(workspace),
         checkpoint_(checkpoint),
@@ -26,7 +26,7 @@ class RunCollector {
         disk_need_(disk_need),
         output_(output),
         store_(store),
-        progress_(progress) {}
+        voxelizing_(voxelizing) {}
 
   // Adds a run of an earlier process.
   void restore(BakedRun baked) { add(std::move(baked)); }
@@ -51,7 +51,7 @@ class RunCollector {
   DiskNeed* disk_need_;
   const std::string& output_;  // path
   CellStore* store_;
-  Progress* progress_;
+  const Progress::Interval* voxelizing_;
   std::mutex mutex_;
   RunSet set_;
 };

@@ -96,8 +96,9 @@ void Progress::draw(uint64_t done) {
   const double elapsed = seconds_since(start_), phase = seconds_since(phase_start_);
   const uint64_t items = items_.load(std::memory_order_relaxed);
   if (elapsed >= 1) add(clock_text(elapsed));
-  if (elapsed >= 1 && share(done) >= kMinShare)
-    add("about " + clock_text(elapsed * (1 / share(done) - 1)) + " left");
+  const double worked = share(done) - skipped_;
+  if (elapsed >= 1 && worked >= kMinShare * (1 - skipped_))
+    add("about " + clock_text(elapsed * (1 - share(done)) / worked) + " left");
   if (!unit_.empty() && phase >= kMinSeconds) add(rate_text(double(items) / phase, unit_));
   if (budget_ != nullptr && budget_->limit() != MemoryBudget::kUnlimited)
     add(memory_text(budget_->used()) + " of " + memory_text(budget_->limit()));

@@ -32,6 +32,8 @@ class Progress {
   void phase(const std::string& name, uint64_t total, const std::string& unit = "");
   // Adds steps, and items of the phase's unit, that are done. Thread-safe.
   void advance(uint64_t steps = 1, uint64_t items = 0);
+  // The work of the current Interval is already done: the remaining time is estimated without it.
+  void skip() { skipped_ += size_; }
   // Shows the memory used, and the limit. `budget` must exist until the last advance().
   void show_memory(const MemoryBudget* budget) { budget_ = budget; }
   // Erases the line.
@@ -54,15 +56,18 @@ class Progress {
     }
     // Moves to another range of the enclosing Interval.
     void move_to(double begin, double end) {
-      progress_->begin_ = begin_ + size_ * begin;
-      progress_->size_ = size_ * (end - begin);
+      own_begin_ = progress_->begin_ = begin_ + size_ * begin;
+      own_size_ = progress_->size_ = size_ * (end - begin);
     }
+    // Share of this range that is done, 0 to 1.
+    double share() const { return (progress_->share() - own_begin_) / own_size_; }
     Interval(const Interval&) = delete;
     Interval& operator=(const Interval&) = delete;
 
    private:
     Progress* progress_;
-    double begin_, size_;  // of the enclosing interval
+    double begin_, size_;          // of the enclosing interval
+    double own_begin_, own_size_;  // of this one, of the whole
   };
 
  private:
@@ -78,6 +83,7 @@ class Progress {
   uint64_t total_ = 0;
   const MemoryBudget* budget_ = nullptr;
   double begin_ = 0, size_ = 1;  // of the current Interval
+  double skipped_ = 0;           // share of the whole
   std::atomic<uint64_t> done_{0}, items_{0};
   std::atomic<int64_t> next_draw_{0};  // milliseconds since phase_start_
   std::atomic_flag drawing_;

@@ -61,9 +61,11 @@ class Bench:
         return [self.programs / "svdag", "build", self.scene, "-r", label(LOG2), "-o", self.dag, "-m", self.memory, *options]
 
     def predict(self):
-        begin = time.monotonic()
+        begin, usage = time.monotonic(), os.times()
         out = subprocess.run(self.command("--dry-run", "--json"), check=True, capture_output=True).stdout
-        return {**json.loads(out), "took": time.monotonic() - begin}
+        used = os.times()
+        return {**json.loads(out), "took": time.monotonic() - begin,
+                "took_cpu": used.children_user + used.children_system - usage.children_user - usage.children_system}
 
     def bake(self):
         """The figures of one bake, and what the progress line said: (elapsed, remaining) in seconds."""
@@ -147,7 +149,8 @@ def rows(results):
                 ["predicted output and scratch, GB", "±30 %",
                  ratio((dry["output_bytes"] + dry["scratch_bytes"]) / GB, disk / GB)]]
     if "judged" in results:
-        out.append([f"of {BRICKS:,} bricks, wrong", "0", "none" if results["judged"].get("ok") else "**some**"])
+        judged = results["judged"]
+        out.append([f"wrong of {judged['bricks']:,} drawn bricks", "0", f"{judged['wrong_bricks']}"])
     if "killed" in results:
         out.append(["killed twice and resumed", "same bytes", "same" if results["killed"]["hash"] == bake["hash"] else "**other**"])
     return out

@@ -1,7 +1,9 @@
 #include "builder/farm/planner/survey.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "builder/split/cell_tree.h"
 #include "streaming/process/interrupt.h"
@@ -50,6 +52,29 @@ bool may_meet(const LatticeTriangle& triangle, const Grid& grid, int level,
   return false;
 }
 
+// Triangles of dense scans are much smaller than the voxels of a survey: one inside a voxel sets
+// what all others inside it do. Remembers the voxels of the newest triangles.
+class InsideVoxels {
+ public:
+  explicit InsideVoxels(int fraction) : fraction_(fraction) {}
+
+  // Whether the triangle is inside a voxel, off its faces, that is remembered already.
+  bool repeats(const LatticeTriangle& triangle) {
+    const LatticeBox box = box_of(triangle);
+    LatticePoint voxel;
+    for (int a = 0; a < 3; ++a) {
+      voxel[a] = box.max[a] >> fraction_;
+      if ((box.min[a] - 1) >> fraction_ != voxel[a]) return false;
+    }
+    const size_t hash = size_t(voxel.x + 31 * voxel.y + 977 * voxel.z) % newest_.size();
+    return std::exchange(newest_[hash], voxel) == voxel;
+  }
+
+ private:
+  int fraction_;
+  std::vector<LatticePoint> newest_ = std::vector<LatticePoint>(4096, LatticePoint(-1));
+};
+
 }  // namespace
 
 Grid coarser_grid(const Grid& grid, int level) {
@@ -97,10 +122,12 @@ bool Survey::count(SpillFile* file, const TriangleBin& bin, const CellFilter& fi
   BinReader reader(file, bin, budget_, SIZE_MAX);
   std::vector<LatticeTriangle> triangles;
   CutRecords cuts;  // estimated whole
+  InsideVoxels inside(grid_.fraction());
   for (; reader.read(kSurveyBatch, &triangles, &cuts); triangles.clear(), cuts.clear()) {
     check_interrupt();
     for (const LatticeTriangle& triangle : triangles) {
       const LatticeTriangle coarse = shifted(triangle, shift);
+      if (config_.descent.rule == Rule::kConservative && inside.repeats(coarse)) continue;
       if (!filter || may_meet(coarse, grid_, cell_level_, filter)) tree.add(coarse);
     }
     if (tree.bytes(1) > config_.triangle_bytes) return false;

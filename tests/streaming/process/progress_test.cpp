@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
 namespace svdag {
 namespace {
 
@@ -40,6 +43,22 @@ TEST(Progress, PhasesInIntervalsAdvanceOneShare) {
   const std::string text = testing::internal::GetCapturedStderr();
   EXPECT_NE(text.find("\rbin  50 %\rbin  62 %"), std::string::npos) << text;
   EXPECT_NE(text.find("\rbin  75 %\rbin  88 %"), std::string::npos) << text;
+}
+
+TEST(Progress, EstimatesTheRemainingTimeWithoutSkippedWork) {
+  testing::internal::CaptureStderr();
+  {
+    Progress progress(Progress::Mode::kOn);
+    Progress::Interval half(&progress, 0, 0.5);
+    progress.skip();
+    half.move_to(0.5, 1);
+    progress.phase("voxelize", 4);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1600));
+    progress.advance(1);  // a quarter of what is left
+    EXPECT_EQ(half.share(), 0.25);
+  }
+  const std::string text = testing::internal::GetCapturedStderr();
+  EXPECT_NE(text.find("about 0:05 left"), std::string::npos) << text;
 }
 
 TEST(Progress, UsesNoEscapeSequence) {
