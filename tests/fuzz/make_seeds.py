@@ -49,7 +49,7 @@ def journal(lattice):
     levels, all_voxels = 5, 1 << 15
     grid = struct.pack("<Ii4d3qI6q12d", lattice, levels, 0.5, 1, 2, 3, 0, 0, 0, lattice, 0, 0, 0, 32, 32, 32,
                        1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0)
-    bake = struct.pack("<I", 8) + text(b"algorithm: 3\nrule: thin\n") + grid + struct.pack("<Q", 16384)
+    bake = struct.pack("<I", 10) + text(b"algorithm: 3\nrule: thin\n") + grid + struct.pack("<Q", 16384)
     bins = b"".join(struct.pack("<i3q2Q", 1, 0, 0, z, z * 4096, (z + 1) * 4096) + struct.pack("<Q", 9) + stream(
         1 + z, 16000 + z, [z]) for z in range(2))
     layers = struct.pack("<IQ", 0, 0)
