@@ -26,10 +26,12 @@ from peak import Peak  # noqa: E402
 RESULTS = OUT / "billion.json"
 SCENE, LOG2, MEMORY = "scan 1G", 16, "4G"
 BRICKS = 100_000
+SHARDS = 16
 GB = 1e9
 LEFT = re.compile(rb" ([\d:]+)  about ([\d:]+) left")
 OBSERVED = 0.1, 0.9  # shares of the time in which the remaining time is compared
 POLL_SECONDS = 0.05
+STEPS = ["predict", "bake", "judge", "kill", "farm"]
 
 
 def seconds_of(clock):
@@ -91,6 +93,33 @@ class Bench:
                 "disk": disk.most + self.scene.stat().st_size, "read": (peak.read - scratch["read"]) / self.scene.stat().st_size,
                 "voxels": report["voxels"], "nodes": sum(report["nodes"]), "hash": report["content_hash"], "progress": lines}
 
+    def watched(self, *command):
+        """(seconds, CPU seconds, bytes read) of a command that must succeed."""
+        begin = time.monotonic()
+        program = subprocess.Popen([self.programs / "svdag", *command, "-q"])
+        peak = Peak(program.pid, POLL_SECONDS)
+        peak.start()
+        _, status, usage = os.wait4(program.pid, 0)
+        program.returncode = os.waitstatus_to_exitcode(status)
+        peak.done.set()
+        peak.join()
+        if program.returncode != 0:
+            sys.exit(f"svdag {command[0]} failed with exit code {program.returncode}")
+        return time.monotonic() - begin, usage.ru_utime + usage.ru_stime, peak.read
+
+    def farm(self):
+        """What a plan of SHARDS shards, each of its steps, and the last merge take."""
+        plan = OUT / "bench.plan"
+        shutil.rmtree(plan, ignore_errors=True)
+        planning = self.watched("plan", self.scene, "-r", label(LOG2), "-m", self.memory, "-o", plan, "--shards", str(SHARDS))
+        written = json.loads((plan / "plan.json").read_text())
+        steps = {step["name"]: self.watched("run", plan, "--step", step["name"], "--keep") for step in written["steps"]}
+        stored = [(plan / step["output"]).stat().st_size for step in written["steps"]]
+        info = subprocess.run([self.programs / "svdag", "info", "--json", plan / written["steps"][-1]["output"]], check=True,
+                              capture_output=True).stdout
+        shutil.rmtree(plan)
+        return {"planning": planning, "steps": steps, "stored": stored, "hash": json.loads(info)["content_hash"]}
+
     def judge(self):
         out = subprocess.run([self.programs / "svdag-verify", "mesh", "--sample", str(BRICKS), self.dag, self.scene, "--json"],
                              capture_output=True).stdout
@@ -151,6 +180,16 @@ def rows(results):
     if "judged" in results:
         judged = results["judged"]
         out.append([f"wrong of {judged['bricks']:,} drawn bricks", "0", f"{judged['wrong_bricks']}"])
+    if "farm" in results:
+        farm, scene = results["farm"], bake["scene"]
+        steps = farm["steps"].values()
+        out += [[f"{SHARDS} shards: read by all steps / scene", "1.3", f"{sum(s[2] for s in steps) / scene:.2f}"],
+                ["– the most that a shard reads, stores, GB", "",
+                 f"{max(s[2] for s in steps) / GB:.2f}, {max(farm['stored'][:-1]) / GB:.2f}"],
+                ["– planning, all steps, the last merge, CPU s", "",
+                 f"{farm['planning'][1]:,.0f}, {sum(s[1] for s in steps):,.0f}, {list(steps)[-1][1]:,.0f}"],
+                ["– CPU of all / one bake", "1.15", f"{(farm['planning'][1] + sum(s[1] for s in steps)) / bake['cpu']:.2f}"],
+                ["– bytes", "same", "same" if farm["hash"] == bake["hash"] else "**other**"]]
     if "killed" in results:
         out.append(["killed twice and resumed", "same bytes", "same" if results["killed"]["hash"] == bake["hash"] else "**other**"])
     return out
@@ -159,14 +198,14 @@ def rows(results):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--programs", type=pathlib.Path, default=ROOT / "build" / "release")
-    parser.add_argument("--steps", nargs="*", choices=["predict", "bake", "judge", "kill"],
-                        default=["predict", "bake", "judge", "kill"], help="the others keep their results")
+    parser.add_argument("--steps", nargs="*", choices=STEPS, default=STEPS, help="the others keep their results")
     parser.add_argument("--json-only", action="store_true", help="do not change docs/")
     options = parser.parse_args()
     bench = Bench(options.programs.resolve(), MEMORY)
     results = json.loads(RESULTS.read_text()) if RESULTS.exists() else {}
     steps = {"predict": ("prediction", bench.predict), "bake": ("bake", bench.bake), "judge": ("judged", bench.judge),
-             "kill": ("killed", lambda: bench.bake_killed(results["bake"]["seconds"]["total"]))}
+             "kill": ("killed", lambda: bench.bake_killed(results["bake"]["seconds"]["total"])),
+             "farm": ("farm", bench.farm)}
     for step in options.steps:
         name, run = steps[step]
         results[name] = run()

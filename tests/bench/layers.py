@@ -111,7 +111,7 @@ def main():
         if options.only != "frames":
             city = pathlib.Path(folder, "city.obj")
             layers.run("svdag-scene", "city", "-n", "120K", "-q", "-o", city)
-            rows = [layers.objects("sponza", scenes / "crytek_sponza.glb", r) for r in ("4K", "8K", "16K", "32K", "64K")]
+            rows = [layers.objects("sponza", scenes / "crytek_sponza.glb", r) for r in ("4K", "16K", "64K")]
             tables["layers"] = table(["scene", "grid", "layers", "only the union, MB", "with layers, MB", "ratio", "CPU of the bake, ratio",
                                       "opened, s", "rays per second, ratio"], [*rows, layers.objects("city", city, "4K")])
         if options.only != "layers":

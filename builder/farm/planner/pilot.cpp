@@ -12,10 +12,14 @@ namespace {
 constexpr int kLevelsCoarser = 4;
 constexpr int kMinPilotLevel = 10;  // coarser surveys have too few bricks
 constexpr int kMaxPilotLevel = 14;  // finer levels are estimated from the sample alone
-constexpr int kCellLevel = 6;       // as in builder/bake/bake.cpp
+// Triangles per 4^level: a coarser survey of a dense scan counts as much in less time.
+constexpr uint64_t kDense = 16;
+constexpr int kCellLevel = 6;  // as in builder/bake/bake.cpp
 constexpr int kMaxCellLevel = 8;
 constexpr double kSampleShare = 0.03;  // of the cells
 constexpr size_t kMaxSamples = 512, kMinSamples = 8;
+// Samples of larger scenes are drawn from so many triangles, but from no fewer bins than this.
+constexpr uint64_t kSampledTriangles = uint64_t(64) << 20, kSampledBins = 32;
 constexpr double kRepetition = 0.9;  // the exponent of unique nodes
 // Seconds per triangle of a bin that is too heavy to survey (tests/bench/plan.py --calibrate).
 constexpr double kUnsurveyedTriangle = 6.91e-6;
@@ -39,6 +43,12 @@ Pilot::Pilot(const Grid& grid, const std::vector<TriangleBin>& bins, SpillFile* 
   level_ = std::min(grid.levels,
                     std::clamp(grid.levels - kLevelsCoarser,
                                std::max(kMinPilotLevel, max_cell_level + 3), kMaxPilotLevel));
+  uint64_t triangles = 0;
+  for (const TriangleBin& bin : bins) triangles += bin.triangles;
+  stride_ = size_t(std::clamp(triangles / kSampledTriangles, uint64_t(1),
+                              std::max(bins.size() / kSampledBins, uint64_t(1))));
+  while (level_ > std::max(kMinPilotLevel, max_cell_level + 3) && triangles >> 2 * level_ >= kDense)
+    --level_;
   cell_level_ = std::min(max_cell_level, shards > 256 ? kCellLevel + 1 : kCellLevel);
   while (survey_coarsely() * 4 * double(shards) >= cost() && cell_level_ < max_cell_level)
     ++cell_level_;
@@ -78,13 +88,16 @@ double Pilot::survey_coarsely() {
   return max;
 }
 
-// Draws cells at equal intervals of the cumulative cost.
+// Draws cells of every stride_-th bin, at equal intervals of their cumulative cost.
 void Pilot::draw() {
+  double all = 0;
+  for (const auto& [code, cell] : coarse_) all += cell.bin % stride_ == 0 ? cell.cpu : 0;
   const size_t count =
       std::clamp(size_t(kSampleShare * double(coarse_.size())), kMinSamples, kMaxSamples);
-  const double interval = cost() / double(count);
+  const double interval = all / double(count);
   double before = 0, next = interval / 2;
   for (auto& [code, cell] : coarse_) {
+    if (cell.bin % stride_ != 0) continue;
     before += cell.cpu;
     for (; before > next; next += interval) ++cell.draws;
   }
@@ -145,14 +158,23 @@ std::vector<ShardWork> Pilot::works_of(const std::vector<CellRange>& shards) con
       break;
     }
     Survey survey = this->survey(level_);
+    uint64_t surveyed = 0;  // triangles
+    size_t next = 0;
     for (const TriangleBin& bin : bins_of(bins_, cells, grid_.levels)) {
       add_triangles(bin, &shard);
+      if (next++ % stride_ != 0) continue;
+      surveyed += bin.triangles;
       const bool counted = survey.count(
           file_, bin, [&](uint64_t cell) { return cell >= cells.begin && cell < cells.end; },
           [&](uint64_t, double cpu) { shard.cost += growth_ * cpu; });
       if (!counted) shard.cost += kUnsurveyedTriangle * double(bin.triangles);
     }
-    shard.found = fine_nodes(survey.found());
+    const double times = double(shard.triangles) / double(std::max(surveyed, uint64_t(1)));
+    shard.cost *= times;
+    NodeCounts coarse = survey.found();
+    coarse.nodes *= std::pow(times, kRepetition);
+    coarse.bricks *= std::pow(times, kRepetition);
+    shard.found = fine_nodes(coarse);
   }
   return works;
 }

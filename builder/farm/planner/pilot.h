@@ -6,15 +6,19 @@
 // be measured: when the resolution doubles, a scan costs 1.3 times as much while its triangles are
 // smaller than voxels, and more than 3 times when they are larger.
 //
+// Of scenes of hundreds of millions of triangles only every n-th bin is read for samples and
+// shards.
+//
 // Costs add up, unique nodes do not: a larger part of a scene repeats itself more, and fine nodes
 // repeat themselves more than coarse ones. So the number of unique nodes is the sample's times a
 // power of the ratio of unique coarse nodes, in the scene or in a shard to the sample (Heaps' law).
 //
 // Rejected for nodes: a power measured at two sizes of the sample, which predicts no better; the
 // power 1 (15 to 40 % too many bytes at 64K^3); one power for the sum of nodes and bricks (bytes of
-// a step off by 19 % instead of 5 %). Rejected for costs: a ratio for the neighbourhood of each cell
-// along the Morton curve (p99 of the shards of real scenes 2.2 instead of 2.5, for a file more); the
-// ratio of the sums, which large plane cells dominate (off by a factor of 2.6 instead of 1.6).
+// a step off by 19 % instead of 5 %). Rejected for costs: a ratio for the neighbourhood of each
+// cell along the Morton curve (p99 of the shards of real scenes 2.2 instead of 2.5, for a file
+// more); the ratio of the sums, which large plane cells dominate (off by a factor of 2.6 instead
+// of 1.6).
 #pragma once
 
 #include <map>
@@ -65,7 +69,8 @@ class Pilot {
   SpillFile* file_;
   SurveyConfig config_;
   MemoryBudget* budget_;
-  int level_ = 0;  // of the coarse survey
+  int level_ = 0;      // of the coarse survey
+  size_t stride_ = 1;  // samples come from every stride_-th bin
   int cell_level_ = 0;
   std::map<uint64_t, CoarseCell> coarse_;  // by Morton code
   std::vector<size_t> heavy_;              // bins with too many triangles to survey

@@ -27,8 +27,8 @@ class Survey {
   using CellFilter = std::function<bool(uint64_t cell)>;
   using Visit = std::function<void(uint64_t cell, double cpu)>;
 
-  // The voxels of the survey are cubes of octree level `level` of the grid; cells, which are counted
-  // separately, of `cell_level`, at most level - 2.
+  // The voxels of the survey are cubes of octree level `level` of the grid; cells, which are
+  // counted separately, of `cell_level`, at most level - 2.
   Survey(const Grid& grid, int level, int cell_level, const SurveyConfig& config,
          MemoryBudget* budget);
   Survey(const Survey&) = delete;
