@@ -3,7 +3,7 @@
 //
 // Notation: T triangles, N^3 voxels. Times are relative to the split of a scene. Voxelizing takes
 //
-//   3 (N^2 / T)^0.42
+//   2.5 N / sqrt(T)
 //
 // of them, fitted to scans, hair, terrains and buildings from 64K to 10^9 triangles: right within a
 // factor of two, and better for scans, whose bakes are long. Runs that are spilled were sorted
@@ -41,7 +41,7 @@ inline PhaseShares phase_shares(const ExpectedWork& work) {
   const double voxelize =
       work.triangles == 0
           ? kUnknown
-          : 3 * std::pow(std::ldexp(1, 2 * work.levels) / double(work.triangles), 0.42);
+          : 2.5 * std::sqrt(std::ldexp(1, 2 * work.levels) / double(work.triangles));
   const double times[] = {0.3 * reading,
                           reading,
                           voxelize,

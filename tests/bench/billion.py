@@ -149,10 +149,6 @@ def worst_remaining(bake):
     return max(abs(left / (total - t) - 1) for t, left in inside)
 
 
-def ratio(predicted, measured):
-    return f"{predicted:,.1f} ({predicted / measured:.2f} times)"
-
-
 def rows(results):
     if "bake" not in results:
         return []
@@ -167,25 +163,22 @@ def rows(results):
            ["scratch, GB (bytes a triangle)", "", f"{bake['scratch']['peak'] / GB:.1f} ({bake['scratch']['peak'] / bake['triangles']:.1f})"],
            ["output, GB", "", f"{bake['file'] / GB:.2f}"],
            ["disk in all with the scene, GB", "60", f"{bake['disk'] / GB:.1f}"],
-           ["the scene was read, times", "2.2", f"{bake['read']:.2f}"],
-           ["written to scratch, GB", "", f"{bake['scratch']['written'] / GB:.1f}"],
-           ["voxels, unique nodes", "", f"{bake['voxels']:,}, {bake['nodes']:,}"],
-           ["largest error of the remaining time after a tenth", "25 %", f"{worst_remaining(bake):.0%}"]]
+           ["the scene was read, times", "2.2", f"{bake['read']:.2f}"]]
+    if bake["progress"]:
+        out.append(["largest error of the remaining time after a tenth", "25 %", f"{worst_remaining(bake):.0%}"])
     if dry is not None:
-        out += [["predicted CPU, s", "±30 %", ratio(dry["cpu_seconds"], bake["cpu"])],
-                ["predicted wall, s", "±30 %", ratio(dry["seconds"], seconds["total"])],
-                ["predicted memory, MiB", "±30 %", ratio(dry["memory_bytes"] / 2**20, bake["own"] / 2**20)],
-                ["predicted output and scratch, GB", "±30 %",
-                 ratio((dry["output_bytes"] + dry["scratch_bytes"]) / GB, disk / GB)]]
+        pairs = [(dry["cpu_seconds"], bake["cpu"]), (dry["seconds"], seconds["total"]), (dry["memory_bytes"], bake["own"]),
+                 (dry["output_bytes"] + dry["scratch_bytes"], disk)]
+        out.append(["predicted / taken: CPU, wall, memory, disk", "±30 %", ", ".join(f"{p / taken:.2f}" for p, taken in pairs)])
     if "judged" in results:
         judged = results["judged"]
         out.append([f"wrong of {judged['bricks']:,} drawn bricks", "0", f"{judged['wrong_bricks']}"])
     if "farm" in results:
         farm, scene = results["farm"], bake["scene"]
         steps = farm["steps"].values()
-        out += [[f"{SHARDS} shards: read by all steps / scene", "1.3", f"{sum(s[2] for s in steps) / scene:.2f}"],
-                ["– the most that a shard reads, stores, GB", "",
-                 f"{max(s[2] for s in steps) / GB:.2f}, {max(farm['stored'][:-1]) / GB:.2f}"],
+        reads = [step[2] for name, step in farm["steps"].items() if name.startswith("shard")]
+        out += [[f"{SHARDS} shards: read / scene", "1.3", f"{sum(reads) / scene:.2f}"],
+                ["– the most that a shard reads, stores, GB", "", f"{max(reads) / GB:.2f}, {max(farm['stored'][:-1]) / GB:.2f}"],
                 ["– planning, all steps, the last merge, CPU s", "",
                  f"{farm['planning'][1]:,.0f}, {sum(s[1] for s in steps):,.0f}, {list(steps)[-1][1]:,.0f}"],
                 ["– CPU of all / one bake", "1.15", f"{(farm['planning'][1] + sum(s[1] for s in steps)) / bake['cpu']:.2f}"],

@@ -19,7 +19,7 @@ constexpr int kMaxCellLevel = 8;
 constexpr double kSampleShare = 0.03;  // of the cells
 constexpr size_t kMaxSamples = 512, kMinSamples = 8;
 // Samples of larger scenes are drawn from so many triangles, but from no fewer bins than this.
-constexpr uint64_t kSampledTriangles = uint64_t(64) << 20, kSampledBins = 32;
+constexpr uint64_t kSampledTriangles = uint64_t(8) << 20, kSampledBins = 32;
 constexpr double kRepetition = 0.9;  // the exponent of unique nodes
 // Seconds per triangle of a bin that is too heavy to survey (tests/bench/plan.py --calibrate).
 constexpr double kUnsurveyedTriangle = 6.91e-6;

@@ -6,7 +6,7 @@
 // be measured: when the resolution doubles, a scan costs 1.3 times as much while its triangles are
 // smaller than voxels, and more than 3 times when they are larger.
 //
-// Of scenes of hundreds of millions of triangles only every n-th bin is read for samples and
+// Of scenes of tens of millions of triangles, only every n-th bin is read for samples and
 // shards.
 //
 // Costs add up, unique nodes do not: a larger part of a scene repeats itself more, and fine nodes

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "builder/split/cell_tree.h"
+#include "io/lattice.h"
 #include "streaming/process/interrupt.h"
 
 namespace svdag {
@@ -39,9 +40,10 @@ bool may_meet(const LatticeTriangle& triangle, const Grid& grid, int level,
   const int shift = grid.levels - level + grid.fraction();
   int64_t first[3], last[3], cells = 1;
   for (int a = 0; a < 3; ++a) {
-    first[a] = std::max<int64_t>((box.min[a] - 1) >> shift, 0);  // cells that it touches, too
-    last[a] = std::min<int64_t>(box.max[a] >> shift, (int64_t(1) << level) - 1);
-    cells *= std::max<int64_t>(last[a] - first[a] + 1, 0);
+    const int64_t end = (int64_t(1) << level) - 1;
+    first[a] = std::clamp<int64_t>(first_touched(box.min[a], shift), 0, end);
+    last[a] = std::clamp<int64_t>(last_touched(box.max[a], shift), 0, end);
+    cells *= last[a] - first[a] + 1;
     if (cells > kManyCells) return true;
   }
   for (int64_t i = 0; i < cells; ++i) {
@@ -63,8 +65,8 @@ class InsideVoxels {
     const LatticeBox box = box_of(triangle);
     LatticePoint voxel;
     for (int a = 0; a < 3; ++a) {
-      voxel[a] = box.max[a] >> fraction_;
-      if ((box.min[a] - 1) >> fraction_ != voxel[a]) return false;
+      voxel[a] = last_touched(box.max[a], fraction_);
+      if (first_touched(box.min[a], fraction_) != voxel[a]) return false;
     }
     const size_t hash = size_t(voxel.x + 31 * voxel.y + 977 * voxel.z) % newest_.size();
     return std::exchange(newest_[hash], voxel) == voxel;
