@@ -62,7 +62,6 @@ SCRATCH = Target("scratch / file", 6, lambda row, rows: row["scratch"])
 SCAN_SCRATCH = Target("scratch / file", 7, lambda row, rows: row["scratch"])  # 35 bytes a triangle
 READ = Target("read / scene", 2.2, lambda row, rows: row["read"])
 ROWS = [
-    Row("hairball-16K", "hairball", 14, "2G", [MEMORY, wall(180), SCRATCH]),
     Row("scan-1G", "scan 100M", 14, "1G", [MEMORY, SCAN_SCRATCH, READ]),
     Row("scan-256M", "scan 100M", 14, "256M", [MEMORY, SCAN_SCRATCH, READ]),
     Row("shuffled-1G", "scan 100M, shuffled", 14, "1G", [MEMORY, READ]),
@@ -70,7 +69,7 @@ ROWS = [
     Row("speck", "speck", 16, "128M", [MEMORY]),
     Row("sponza", "sponza", 16, "", []),
     Row("sponza-512M", "sponza", 16, "512M", [MEMORY, times_wall(2, "sponza")]),
-    Row("hairball-32K", "hairball", 15, "4G", [MEMORY, wall(600)]),
+    Row("hairball-32K", "hairball", 15, "4G", [MEMORY, wall(600), SCRATCH]),
     Row("hairball-64K", "hairball", 16, "8G", [MEMORY, wall(900)]),
 ]
 
