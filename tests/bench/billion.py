@@ -7,7 +7,6 @@ build/bench/billion.json and between the markers in docs/results/performance.md.
 """
 import argparse
 import json
-import os
 import pathlib
 import re
 import shutil
@@ -18,10 +17,7 @@ import time
 from bakes import Bakes, label
 from bench import OUT, PAGE, ROOT, fill
 from bench_tables import table
-from out_of_core import MARGIN, bytes_of
-
-sys.path.append(str(ROOT / "tests" / "fault"))
-from peak import Peak  # noqa: E402
+from out_of_core import MARGIN, bytes_of, run_watched
 
 RESULTS = OUT / "billion.json"
 SCENE, LOG2, MEMORY = "scan 1G", 16, "4G"
@@ -30,7 +26,6 @@ SHARDS = 16
 GB = 1e9
 LEFT = re.compile(rb" ([\d:]+)  about ([\d:]+) left")
 OBSERVED = 0.1, 0.9  # shares of the time in which the remaining time is compared
-POLL_SECONDS = 0.05
 STEPS = ["predict", "bake", "judge", "kill", "farm"]
 
 
@@ -63,57 +58,47 @@ class Bench:
         return [self.programs / "svdag", "build", self.scene, "-r", label(LOG2), "-o", self.dag, "-m", self.memory, *options]
 
     def predict(self):
-        begin, usage = time.monotonic(), os.times()
-        out = subprocess.run(self.command("--dry-run", "--json"), check=True, capture_output=True).stdout
-        used = os.times()
-        return {**json.loads(out), "took": time.monotonic() - begin,
-                "took_cpu": used.children_user + used.children_system - usage.children_user - usage.children_system}
+        return json.loads(subprocess.run(self.command("--dry-run", "--json"), check=True, capture_output=True).stdout)
 
     def bake(self):
         """The figures of one bake, and what the progress line said: (elapsed, remaining) in seconds."""
         disk, lines = Disk(OUT), []
-        program = subprocess.Popen(self.command("--restart", "--progress", "--report", self.report), stderr=subprocess.PIPE,
-                                   stdout=subprocess.DEVNULL)
-        peak = Peak(program.pid, POLL_SECONDS)
-        peak.start()
-        while text := program.stderr.read1(1 << 16):
-            lines += [(seconds_of(a), seconds_of(b)) for a, b in LEFT.findall(text)]
-            disk.poll()
-        _, status, usage = os.wait4(program.pid, 0)
-        program.returncode = os.waitstatus_to_exitcode(status)
-        peak.done.set()
-        peak.join()
-        if program.returncode != 0:
-            sys.exit(f"svdag failed with exit code {program.returncode}")
+
+        def watch(program):
+            while text := program.stderr.read1(1 << 16):
+                lines.extend((seconds_of(a), seconds_of(b)) for a, b in LEFT.findall(text))
+                disk.poll()
+
+        _, cpu, peak, usage = self.watched(self.command("--restart", "--progress", "--report", self.report), watch,
+                                           stderr=subprocess.PIPE, stdout=subprocess.DEVNULL)
         report = json.loads(self.report.read_text())
         scratch = report["scratch"]
-        return {"seconds": report["seconds"], "cpu": usage.ru_utime + usage.ru_stime, "triangles": report["triangles"],
-                "own": max(peak.own, 1024 * usage.ru_maxrss - peak.of_files), "counted": report["memory"]["peak_counted"],
+        return {"seconds": report["seconds"], "cpu": cpu, "triangles": report["triangles"],
+                "own": max(peak.own, 1024 * usage.ru_maxrss - peak.of_files),
                 "scratch": scratch, "file": report["file_bytes"], "scene": self.scene.stat().st_size,
                 "disk": disk.most + self.scene.stat().st_size, "read": (peak.read - scratch["read"]) / self.scene.stat().st_size,
-                "voxels": report["voxels"], "nodes": sum(report["nodes"]), "hash": report["content_hash"], "progress": lines}
+                "hash": report["content_hash"], "progress": lines}
 
-    def watched(self, *command):
-        """(seconds, CPU seconds, bytes read) of a command that must succeed."""
+    def watched(self, command, watch=None, **streams):
+        """(seconds, CPU seconds, Peak, rusage) of a command that must succeed."""
         begin = time.monotonic()
-        program = subprocess.Popen([self.programs / "svdag", *command, "-q"])
-        peak = Peak(program.pid, POLL_SECONDS)
-        peak.start()
-        _, status, usage = os.wait4(program.pid, 0)
-        program.returncode = os.waitstatus_to_exitcode(status)
-        peak.done.set()
-        peak.join()
-        if program.returncode != 0:
-            sys.exit(f"svdag {command[0]} failed with exit code {program.returncode}")
-        return time.monotonic() - begin, usage.ru_utime + usage.ru_stime, peak.read
+        code, peak, usage = run_watched(command, watch, **streams)
+        if code != 0:
+            sys.exit(f"{command[0].name} {command[1]} failed with exit code {code}")
+        return time.monotonic() - begin, usage.ru_utime + usage.ru_stime, peak, usage
+
+    def step(self, *words):
+        """(seconds, CPU seconds, bytes read) of a command of svdag."""
+        seconds, cpu, peak, _ = self.watched([self.programs / "svdag", *words, "-q"])
+        return seconds, cpu, peak.read
 
     def farm(self):
         """What a plan of SHARDS shards, each of its steps, and the last merge take."""
         plan = OUT / "bench.plan"
         shutil.rmtree(plan, ignore_errors=True)
-        planning = self.watched("plan", self.scene, "-r", label(LOG2), "-m", self.memory, "-o", plan, "--shards", str(SHARDS))
+        planning = self.step("plan", self.scene, "-r", label(LOG2), "-m", self.memory, "-o", plan, "--shards", str(SHARDS))
         written = json.loads((plan / "plan.json").read_text())
-        steps = {step["name"]: self.watched("run", plan, "--step", step["name"], "--keep") for step in written["steps"]}
+        steps = {step["name"]: self.step("run", plan, "--step", step["name"], "--keep") for step in written["steps"]}
         stored = [(plan / step["output"]).stat().st_size for step in written["steps"]]
         info = subprocess.run([self.programs / "svdag", "info", "--json", plan / written["steps"][-1]["output"]], check=True,
                               capture_output=True).stdout
@@ -127,7 +112,7 @@ class Bench:
 
     def bake_killed(self, seconds):
         """The content hash of a bake that is killed after a third of `seconds`, and again after another."""
-        start, own = "--restart", 0
+        start = "--restart"
         for _ in range(2):
             program = subprocess.Popen(self.command(start, "-q"))
             time.sleep(seconds / 3)

@@ -18,11 +18,11 @@ from bench_tables import table
 
 RAYS = ["primary", "shadow", "soft", "ao"]
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-SHARED = {"dragon": "stanford_dragon.ply", "sponza": "crytek_sponza.glb"}
-GENERATED = {"hairball 1M": ["hairball", "-n", "1M"], "scan": ["scan"]}
+SHARED = {"dragon": "stanford_dragon.ply", "sponza": "crytek_sponza.glb", "lyon": "lyon_city_epsg3946.glb"}
+GENERATED = {"hairball 1M": ["hairball", "-n", "1M"]}
 PEERS = {("dragon", "4K"): (8.95, 8.43), ("dragon", "8K"): (30.51, 25.25), ("sponza", "4K"): (5.42, 5.09),
          ("sponza", "8K"): (15.74, 14.14), ("hairball 1M", "4K"): (23.22, 21.01), ("hairball 1M", "8K"): (74.75, 67.81)}
-LARGE = [(name, "16K") for name in ("sponza", "dragon", "scan")] + [("sponza", "64K")]
+LARGE = [(name, "16K") for name in ("sponza", "dragon", "lyon")] + [("sponza", "64K")]
 
 
 class Sizes:

@@ -12,8 +12,8 @@ from bench import PAGE, fill
 from bench_tables import table
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-CASES = [("stanford_dragon.ply", "8K"), ("cgal_refined_elephant.off", "8K"), ("cgal_refined_elephant.off", "32K"),
-         ("thingi10k_39202.stl", "32K"), ("trimesh_torus.stl", "8K")]
+CASES = [("stanford_dragon.ply", "8K"), ("cgal_refined_elephant.off", "8K"), ("thingi10k_39202.stl", "32K"),
+         ("trimesh_torus.stl", "8K"), ("trimesh_fandisk.obj", "8K")]
 ROUNDS = 3  # of both rules in turns; the least time counts
 
 
