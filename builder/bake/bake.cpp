@@ -192,8 +192,8 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   const Grid& grid = report.grid = chosen.grid;
   report.scene_bounds = chosen.scene_bounds;
   if (config.colours) check_colour_level(*config.colours, grid.levels);
-  const uint64_t in_memory = workspace->shares().triangles / PackedTriangles::kMinBytes;
-  disk_need->expect_triangles(chosen.triangles, in_memory);
+  disk_need->expect_triangles(chosen.triangles,
+                              workspace->shares().triangles / PackedTriangles::kMinBytes);
   const GridPart part =
       config.part ? GridPart::of_cells(*config.part, grid.levels) : GridPart::whole(grid.levels);
   phases.end();
@@ -204,7 +204,7 @@ BuildReport bake(const Tools& tools, const Scene& scene, Description* descriptio
   if (config.open_store) store = config.open_store(grid, report.rule, workspace->budget());
 
   PhaseShares shares =
-      phase_shares({chosen.triangles, grid.levels, reads_scene, chosen.triangles > in_memory});
+      phase_shares({chosen.triangles, grid.levels, reads_scene, disk_need->estimate() > 0});
   phases.begin("split", shares.split, &report.phases.split);
   const SplitConfig splitting = split_config(tools, chosen, part);
   SplitScene split;

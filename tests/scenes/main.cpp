@@ -2,6 +2,8 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
+#include <map>
+#include <string>
 
 #include "io/help/command_line.h"
 #include "io/units.h"
@@ -34,11 +36,8 @@ uint64_t parse_triangles(const std::string& text) {
   errno = 0;
   const double value = std::strtod(text.c_str(), &end);
   const std::string suffix = end;
-  const double unit = suffix == ""    ? 1
-                      : suffix == "K" ? 1e3
-                      : suffix == "M" ? 1e6
-                      : suffix == "G" ? 1e9
-                                      : 0;
+  const std::map<std::string, double> units = {{"", 1}, {"K", 1e3}, {"M", 1e6}, {"G", 1e9}};
+  const double unit = units.contains(suffix) ? units.at(suffix) : 0;
   if (end == text.c_str() || unit == 0 || !(value * unit >= 1 && value * unit <= 1e12))
     fail_usage("--triangles: \"" + text + "\" is not a number like 5000, 260K or 10M");
   return uint64_t(value * unit);

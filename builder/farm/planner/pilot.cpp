@@ -40,15 +40,14 @@ Pilot::Pilot(const Grid& grid, const std::vector<TriangleBin>& bins, SpillFile* 
              const SurveyConfig& config, size_t shards, MemoryBudget* budget)
     : grid_(grid), bins_(bins), file_(file), config_(config), budget_(budget) {
   const int max_cell_level = std::max(0, std::min(kMaxCellLevel, grid.levels - 6));
-  level_ = std::min(grid.levels,
-                    std::clamp(grid.levels - kLevelsCoarser,
-                               std::max(kMinPilotLevel, max_cell_level + 3), kMaxPilotLevel));
+  const int min_level = std::max(kMinPilotLevel, max_cell_level + 3);
+  level_ =
+      std::min(grid.levels, std::clamp(grid.levels - kLevelsCoarser, min_level, kMaxPilotLevel));
   uint64_t triangles = 0;
   for (const TriangleBin& bin : bins) triangles += bin.triangles;
   stride_ = size_t(std::clamp(triangles / kSampledTriangles, uint64_t(1),
                               std::max(bins.size() / kSampledBins, uint64_t(1))));
-  while (level_ > std::max(kMinPilotLevel, max_cell_level + 3) && triangles >> 2 * level_ >= kDense)
-    --level_;
+  while (level_ > min_level && triangles >> 2 * level_ >= kDense) --level_;
   cell_level_ = std::min(max_cell_level, shards > 256 ? kCellLevel + 1 : kCellLevel);
   while (survey_coarsely() * 4 * double(shards) >= cost() && cell_level_ < max_cell_level)
     ++cell_level_;
@@ -148,15 +147,14 @@ NodeCounts Pilot::fine_nodes(const NodeCounts& coarse) const {
 }
 
 std::vector<ShardWork> Pilot::works_of(const std::vector<CellRange>& shards) const {
+  if (shards.size() == 1) {  // the whole scene was surveyed
+    ShardWork whole{.cost = cost(), .found = found()};
+    for (const TriangleBin& bin : bins_) add_triangles(bin, &whole);
+    return {whole};
+  }
   std::vector<ShardWork> works;
   for (const CellRange& cells : shards) {
     ShardWork& shard = works.emplace_back();
-    if (shards.size() == 1) {  // the whole scene was surveyed
-      for (const TriangleBin& bin : bins_) add_triangles(bin, &shard);
-      shard.cost = cost();
-      shard.found = found();
-      break;
-    }
     Survey survey = this->survey(level_);
     uint64_t surveyed = 0;  // triangles
     size_t next = 0;
@@ -171,10 +169,9 @@ std::vector<ShardWork> Pilot::works_of(const std::vector<CellRange>& shards) con
     }
     const double times = double(shard.triangles) / double(std::max(surveyed, uint64_t(1)));
     shard.cost *= times;
-    NodeCounts coarse = survey.found();
-    coarse.nodes *= std::pow(times, kRepetition);
-    coarse.bricks *= std::pow(times, kRepetition);
-    shard.found = fine_nodes(coarse);
+    const NodeCounts coarse = survey.found();
+    const double more = std::pow(times, kRepetition);
+    shard.found = fine_nodes({more * coarse.nodes, more * coarse.bricks});
   }
   return works;
 }

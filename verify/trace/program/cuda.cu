@@ -211,10 +211,9 @@ TraceResults trace_on_cuda(const PlainFile& file, const Workload& work) {
                                                 file.index->entries().size_bytes() +
                                                 pixels * sizeof(uint32_t)
                                           : 0;
-  require_free_memory(file.words.size() * 8 + index_bytes + tiles * sizeof(Span) +
-                      pixels * (sizeof(Hit) + sizeof(Surfel) + sizeof(uint32_t)));
   const Tree64 built = work.gpu_tree ? Tree64(file.view) : Tree64();
-  require_free_memory(built.bytes());
+  require_free_memory(file.words.size() * 8 + built.bytes() + index_bytes + tiles * sizeof(Span) +
+                      pixels * (sizeof(Hit) + sizeof(Surfel) + sizeof(uint32_t)));
   const DeviceArray<uint64_t> copy(file.words.size()), words(built.bytes() / sizeof(uint64_t));
   copy.upload(file.words.data());
   const DagView dag = moved_view(file.view, file.words.data(), copy.data());

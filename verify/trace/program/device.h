@@ -13,10 +13,10 @@ struct Workload {
   Picture picture;
   Light light;
   Secondary secondary;
-  bool beams = true;     // primary rays start where the beam of their tile first meets a cube
+  bool beams = true;      // primary rays start where the beam of their tile first meets a cube
   bool gpu_tree = false;  // a GPU traces the 64-tree of the file where rays are not cut
-  uint32_t rounds = 3;   // repetitions; the shortest time counts
-  unsigned threads = 0;  // on the processor; 0: one per processor
+  uint32_t rounds = 3;    // repetitions; the shortest time counts
+  unsigned threads = 0;   // on the processor; 0: one per processor
 };
 
 enum WorkloadKind { kPrimaryRays, kShadowRays, kSoftRays, kOcclusionRays, kWorkloads };

@@ -44,7 +44,7 @@ void add_options(CLI::App* app, TraceOptions* options) {
       "--no-beams", [=] { options->beams = false; },
       "Primary rays start at the camera (same hits)");
   app->add_flag("--gpu-tree", options->gpu_tree,
-                "A GPU traces a 64-tree, made of the file at first, as the processor does (same hits)");
+                "A GPU traces a 64-tree of the file, as the processor does (same hits)");
   from_to(app->add_option("--rounds", options->rounds,
                           "Repeat N times and report the shortest time (default 3)"),
           1, 1000)
