@@ -26,11 +26,11 @@ SHARDS = 16
 # Arguments of svdag-scene: flat, curved, dense and thin surfaces.
 SCENES = {"atrium 1M": ["atrium", "-n", "1M", "--seed", "5"], "terrain": ["terrain"],
           "terrain 60K": ["terrain", "-n", "60K", "--yaw", "20"], "scan 300K": ["scan", "-n", "300K", "--seed", "7"],
-          "hairball 200K": ["hairball", "-n", "200K"],
+          "hairball 200K": ["hairball", "-n", "200K"], "scan 5M": ["scan", "-n", "5M"], "scan 20M": ["scan", "-n", "20M"],
           **{name: GENERATED[name] for name in ("atrium", "city", "city, 0.5 rad", "scan", "scan 70K", "sheet")}}
 CALIBRATION = [("atrium", 12), ("atrium", 14), ("atrium 1M", 12), ("city", 12), ("city", 14), ("city, 0.5 rad", 12),
                ("city, 0.5 rad", 14), ("sheet", 15), ("terrain", 13), ("terrain 60K", 12), ("terrain 60K", 14),
-               ("scan", 12), ("scan 70K", 12), ("scan 70K", 14), ("scan 300K", 13), ("hairball 200K", 12),
+               ("scan", 12), ("scan 70K", 12), ("scan 70K", 14), ("scan 300K", 13), ("scan 5M", 12), ("scan 5M", 13), ("scan 20M", 13), ("hairball 200K", 12),
                ("hairball 200K", 13)]
 SHARED_FILES = ["crytek_sponza.glb", "lyon_city_epsg3946.glb", "samurai_monastery.obj", "stanford_dragon.ply",
                 "stk_black_forest.glb", "openfoam_motorbike.obj", "openfoam_buildings.stl"]

@@ -18,15 +18,33 @@ constexpr int kCellLevel = 6;  // as in builder/bake/bake.cpp
 constexpr int kMaxCellLevel = 8;
 constexpr double kSampleShare = 0.03;  // of the cells
 constexpr size_t kMaxSamples = 512, kMinSamples = 8;
-// Samples of larger scenes are drawn from so many triangles, but from no fewer bins than this.
-constexpr uint64_t kSampledTriangles = uint64_t(8) << 20, kSampledBins = 32;
-constexpr double kRepetition = 0.9;  // the exponent of unique nodes
-// Seconds per triangle of a bin that is too heavy to survey (tests/bench/plan.py --calibrate).
-constexpr double kUnsurveyedTriangle = 6.91e-6;
+// Of larger scenes about so many triangles are surveyed, but no fewer bins than this.
+constexpr uint64_t kSurveyedTriangles = uint64_t(8) << 20, kSurveyedBins = 32;
+constexpr uint64_t kBinsPerShard = 2;  // surveyed on average
+constexpr uint64_t kLight = 8;         // a bin with less than a mean bin's triangles / kLight
+constexpr double kRepetition = 0.9;    // the exponent of unique nodes
+// Seconds per triangle if all bins are too heavy to survey (tests/bench/plan.py --calibrate).
+constexpr double kUnsurveyedTriangle = 8.31e-6;
 
 // Unique nodes at the grid's level, if `coarse` were found by the coarse survey.
 double extrapolate(double coarse, double sample_coarse, double sample_fine) {
   return sample_coarse > 0 ? sample_fine * std::pow(coarse / sample_coarse, kRepetition) : coarse;
+}
+
+uint64_t triangles_of(const std::vector<TriangleBin>& bins) {
+  uint64_t triangles = 0;
+  for (const TriangleBin& bin : bins) triangles += bin.triangles;
+  return triangles;
+}
+
+// Unique nodes of `all` triangles, if `counts` were found in `some`.
+NodeCounts scaled(const NodeCounts& counts, uint64_t all, uint64_t some) {
+  const double times = std::pow(double(all) / double(std::max(some, uint64_t(1))), kRepetition);
+  return {times * counts.nodes, times * counts.bricks};
+}
+
+bool contains(const CellRange& cells, uint64_t cell) {
+  return cell >= cells.begin && cell < cells.end;
 }
 
 void add_triangles(const TriangleBin& bin, ShardWork* shard) {
@@ -43,20 +61,20 @@ Pilot::Pilot(const Grid& grid, const std::vector<TriangleBin>& bins, SpillFile* 
   const int min_level = std::max(kMinPilotLevel, max_cell_level + 3);
   level_ =
       std::min(grid.levels, std::clamp(grid.levels - kLevelsCoarser, min_level, kMaxPilotLevel));
-  uint64_t triangles = 0;
-  for (const TriangleBin& bin : bins) triangles += bin.triangles;
-  stride_ = size_t(std::clamp(triangles / kSampledTriangles, uint64_t(1),
-                              std::max(bins.size() / kSampledBins, uint64_t(1))));
+  const uint64_t triangles = triangles_of(bins);
+  const uint64_t least = std::max(kSurveyedBins, kBinsPerShard * shards);
+  stride_ = size_t(std::clamp(triangles / kSurveyedTriangles, uint64_t(1),
+                              std::max(bins.size() / least, uint64_t(1))));
+  light_ = triangles / (kLight * std::max(bins.size(), size_t(1)));
   while (level_ > min_level && triangles >> 2 * level_ >= kDense) --level_;
   cell_level_ = std::min(max_cell_level, shards > 256 ? kCellLevel + 1 : kCellLevel);
-  while (survey_coarsely() * 4 * double(shards) >= cost() && cell_level_ < max_cell_level)
-    ++cell_level_;
+  while (survey_coarsely() * 4 * double(shards) >= 1 && cell_level_ < max_cell_level) ++cell_level_;
   draw();
   few_ = survey_sample(level_);
   fine_ = survey_sample(grid.levels);
   growth_ = growth();
   for (CellCost& cell : cells_) cell.cost *= growth_;
-  add_heavy_bins();
+  add_other_bins();
 }
 
 double Pilot::cost() const {
@@ -65,39 +83,51 @@ double Pilot::cost() const {
   return cost;
 }
 
-// Returns the cost of the most expensive cell.
+// For how many bins the `number`-th stands; 0: it is not surveyed.
+double Pilot::weight(const TriangleBin& bin, size_t number) const {
+  if (bin.triangles < light_) return 1;
+  return number % stride_ == 0 ? double(stride_) : 0;
+}
+
+// Returns the share of the most expensive cell.
 double Pilot::survey_coarsely() {
   Survey survey = this->survey(level_);
   coarse_.clear();
-  heavy_.clear();
   cells_.clear();
+  surveyed_.assign(bins_.size(), false);
+  uint64_t triangles = 0;
   for (size_t b = 0; b < bins_.size(); ++b) {
-    const bool counted = survey.count(file_, bins_[b], {}, [&](uint64_t cell, double cpu) {
+    const double weight = this->weight(bins_[b], b);
+    if (weight == 0) continue;
+    surveyed_[b] = survey.count(file_, bins_[b], {}, [&](uint64_t cell, double cpu) {
       coarse_[cell].cpu += cpu;
       coarse_[cell].bin = b;
+      coarse_[cell].weight = weight;
     });
-    if (!counted) heavy_.push_back(b);
+    triangles += surveyed_[b] ? bins_[b].triangles : 0;
   }
-  coarse_found_ = survey.found();
-  double max = 0;
+  coarse_found_ = scaled(survey.found(), triangles_of(bins_), triangles);
+  double max = 0, all = 0;
   for (const auto& [code, cell] : coarse_) {
     cells_.push_back({code, cell.cpu});
     max = std::max(max, cell.cpu);
+    all += cell.weight * cell.cpu;
   }
-  return max;
+  return all > 0 ? max / all : 0;
 }
 
-// Draws cells of every stride_-th bin, at equal intervals of their cumulative cost.
+// Draws cells at equal intervals of their cumulative cost.
 void Pilot::draw() {
-  double all = 0;
-  for (const auto& [code, cell] : coarse_) all += cell.bin % stride_ == 0 ? cell.cpu : 0;
-  const size_t count =
-      std::clamp(size_t(kSampleShare * double(coarse_.size())), kMinSamples, kMaxSamples);
+  double all = 0, cells = 0;
+  for (const auto& [code, cell] : coarse_) {
+    all += cell.weight * cell.cpu;
+    cells += cell.weight;
+  }
+  const size_t count = std::clamp(size_t(kSampleShare * cells), kMinSamples, kMaxSamples);
   const double interval = all / double(count);
   double before = 0, next = interval / 2;
   for (auto& [code, cell] : coarse_) {
-    if (cell.bin % stride_ != 0) continue;
-    before += cell.cpu;
+    before += cell.weight * cell.cpu;
     for (; before > next; next += interval) ++cell.draws;
   }
 }
@@ -134,10 +164,18 @@ double Pilot::growth() const {
   return draws > 0 ? sum / draws : 1;
 }
 
-void Pilot::add_heavy_bins() {
-  for (const size_t b : heavy_)
+// The rate is that of the bins whose like were left out.
+void Pilot::add_other_bins() {
+  double cost = 0, triangles = 0;
+  for (const auto& [code, cell] : coarse_) cost += cell.weight > 1 ? growth_ * cell.cpu : 0;
+  for (size_t b = 0; b < bins_.size(); ++b)
+    triangles += surveyed_[b] && weight(bins_[b], b) > 1 ? double(bins_[b].triangles) : 0;
+  const double rate = triangles > 0 ? cost / triangles : kUnsurveyedTriangle;
+  for (size_t b = 0; b < bins_.size(); ++b) {
+    if (surveyed_[b]) continue;
     cells_.push_back({bins_[b].range.begin >> 3 * (grid_.levels - cell_level_),
-                      kUnsurveyedTriangle * double(bins_[b].triangles)});
+                      rate * double(bins_[b].triangles)});
+  }
   std::ranges::sort(cells_, {}, &CellCost::cell);
 }
 
@@ -155,23 +193,19 @@ std::vector<ShardWork> Pilot::works_of(const std::vector<CellRange>& shards) con
   std::vector<ShardWork> works;
   for (const CellRange& cells : shards) {
     ShardWork& shard = works.emplace_back();
+    for (const CellCost& cell : cells_) shard.cost += contains(cells, cell.cell) ? cell.cost : 0;
     Survey survey = this->survey(level_);
-    uint64_t surveyed = 0;  // triangles
-    size_t next = 0;
+    uint64_t triangles = 0;
+    size_t number = 0;
     for (const TriangleBin& bin : bins_of(bins_, cells, grid_.levels)) {
       add_triangles(bin, &shard);
-      if (next++ % stride_ != 0) continue;
-      surveyed += bin.triangles;
-      const bool counted = survey.count(
-          file_, bin, [&](uint64_t cell) { return cell >= cells.begin && cell < cells.end; },
-          [&](uint64_t, double cpu) { shard.cost += growth_ * cpu; });
-      if (!counted) shard.cost += kUnsurveyedTriangle * double(bin.triangles);
+      if (weight(bin, number++) > 0 &&
+          survey.count(
+              file_, bin, [&](uint64_t cell) { return contains(cells, cell); },
+              [](uint64_t, double) {}))
+        triangles += bin.triangles;
     }
-    const double times = double(shard.triangles) / double(std::max(surveyed, uint64_t(1)));
-    shard.cost *= times;
-    const NodeCounts coarse = survey.found();
-    const double more = std::pow(times, kRepetition);
-    shard.found = fine_nodes({more * coarse.nodes, more * coarse.bricks});
+    shard.found = fine_nodes(scaled(survey.found(), shard.triangles, triangles));
   }
   return works;
 }

@@ -6,8 +6,9 @@
 // be measured: when the resolution doubles, a scan costs 1.3 times as much while its triangles are
 // smaller than voxels, and more than 3 times when they are larger.
 //
-// Of scenes of tens of millions of triangles, only every n-th bin is read for samples and
-// shards.
+// Of scenes of tens of millions of triangles, only every n-th bin is surveyed, and all with few
+// triangles, which may be large ones. A triangle of any other bin costs the mean of the surveyed:
+// a bin is at most an eighth of a shard (builder/farm/planner/make_plan.cpp).
 //
 // Costs add up, unique nodes do not: a larger part of a scene repeats itself more, and fine nodes
 // repeat themselves more than coarse ones. So the number of unique nodes is the sample's times a
@@ -36,7 +37,8 @@ class Pilot {
         const SurveyConfig& config, size_t shards, MemoryBudget* budget);
 
   int cell_level() const { return cell_level_; }
-  // CPU seconds of voxelizing each non-empty cell at the grid's level, in Morton order.
+  // CPU seconds of voxelizing each non-empty cell at the grid's level, in Morton order. A bin that
+  // was not surveyed counts as its first cell.
   const std::vector<CellCost>& cells() const { return cells_; }
   double cost() const;
   // Unique nodes of the whole scene.
@@ -49,6 +51,7 @@ class Pilot {
   struct CoarseCell {
     double cpu = 0;
     size_t bin = 0;
+    double weight = 1;  // of the bin
     int draws = 0;
   };
   struct Sample {
@@ -57,11 +60,12 @@ class Pilot {
   };
 
   Survey survey(int level) const { return {grid_, level, cell_level_, config_, budget_}; }
+  double weight(const TriangleBin& bin, size_t number) const;
   double survey_coarsely();
   void draw();
   Sample survey_sample(int level) const;
   double growth() const;
-  void add_heavy_bins();
+  void add_other_bins();
   NodeCounts fine_nodes(const NodeCounts& coarse) const;
 
   const Grid& grid_;
@@ -69,11 +73,12 @@ class Pilot {
   SpillFile* file_;
   SurveyConfig config_;
   MemoryBudget* budget_;
-  int level_ = 0;      // of the coarse survey
-  size_t stride_ = 1;  // samples come from every stride_-th bin
+  int level_ = 0;       // of the coarse survey
+  size_t stride_ = 1;   // every stride_-th bin is surveyed
+  uint64_t light_ = 0;  // and all with fewer triangles
   int cell_level_ = 0;
   std::map<uint64_t, CoarseCell> coarse_;  // by Morton code
-  std::vector<size_t> heavy_;              // bins with too many triangles to survey
+  std::vector<bool> surveyed_;             // by bin
   NodeCounts coarse_found_;
   double growth_ = 1;  // of costs, from the coarse survey to the grid's level
   Sample few_, fine_;  // the drawn cells in the coarse survey and at the grid's level

@@ -12,13 +12,16 @@ namespace svdag {
 namespace {
 
 // Seconds, as printed by tests/bench/plan.py --calibrate.
-constexpr double kStart = 0.00844;       // start of a process
-constexpr double kTriangle = 777.3e-9;   // read, snapped or from a bin, and prepared
-constexpr double kDivided = 319.7e-9;    // a cube divided
-constexpr double kComputed = 168.2e-9;   // a node computed for the plane memo
-constexpr double kFound = 193.3e-9;      // a unique node: numbered, sorted, written
-constexpr double kMergeRead = 83.46e-9;  // a node that a merge reads
+constexpr double kStart = 0.0156;        // start of a process
+constexpr double kTriangle = 625.8e-9;   // read, snapped or from a bin, and prepared
+constexpr double kDivided = 436.6e-9;    // a cube divided
+constexpr double kDecided = 0.54e-9;     // a voxel decided for a triangle
+constexpr double kComputed = 176.4e-9;   // a node computed for the plane memo
+constexpr double kFound = 263.3e-9;      // a unique node: numbered, sorted, written
+constexpr double kMergeRead = 153.4e-9;  // a node that a merge reads
 constexpr double kNodeInFile = 22.4;     // bytes of a node in a .svdag
+// By one thread, of the time of a triangle: bounds and split of scans of 10^8 and 10^9 triangles.
+constexpr double kReadAlone = 180e-9;
 // Of the colour pass, fitted by hand to nine textured scenes: right within a factor of two.
 constexpr double kPainted = 1200e-9;   // a triangle: read, snapped, prepared
 constexpr double kTexel = 60e-9;       // decoded, with its mip map
@@ -37,12 +40,17 @@ uint64_t budget_for(double need, const StepLimits& limits) {
 
 }  // namespace
 
-double descent_cpu(double divided, double computed) {
-  return kDivided * divided + kComputed * computed;
+double descent_cpu(double divided, double decided, double computed) {
+  return kDivided * divided + kDecided * decided + kComputed * computed;
 }
 
 double cpu_of_bake(double cost, const NodeCounts& found, uint64_t triangles) {
   return kStart + kTriangle * double(triangles) + cost + kFound * found.keys();
+}
+
+double seconds_of_bake(double cpu, uint64_t triangles, size_t threads) {
+  const double alone = kStart + kReadAlone * double(triangles);
+  return alone + (cpu - alone) / double(threads);
 }
 
 Prediction predict_shard(const ShardWork& shard, const StepLimits& limits) {

@@ -1,10 +1,10 @@
 // Cost model: predicts seconds, memory and disk from counted work.
 //
-// The model is linear in triangles, cubes divided, nodes computed for the plane memo and nodes
-// found (builder/farm/planner/survey.h). Its constants were fitted to bakes of generated scenes on
-// one machine (tests/bench/plan.py --calibrate repeats this, and validates them on other scenes).
-// Seconds are those of that machine; the ratios between shards hold on any machine. Memory is a
-// limit, not an estimate: a step stays within it.
+// The model is linear in triangles, cubes divided, voxels decided, nodes computed for the plane
+// memo and nodes found (builder/farm/planner/survey.h). Its constants were fitted to bakes of
+// generated scenes on one machine (tests/bench/plan.py --calibrate repeats this, and validates them
+// on other scenes). Seconds are those of that machine; the ratios between shards hold on any
+// machine. Memory is a limit, not an estimate: a step stays within it.
 #pragma once
 
 #include "builder/farm/plan/plan.h"
@@ -24,8 +24,9 @@ struct NodeCounts {
   double run_bytes() const { return 32 * nodes + 8 * bricks; }
 };
 
-// CPU seconds of voxelizing: `divided` cubes, and `computed` nodes for the plane memo.
-double descent_cpu(double divided, double computed);
+// CPU seconds of voxelizing: `divided` cubes, `decided` voxels of triangles, and `computed` nodes
+// for the plane memo.
+double descent_cpu(double divided, double decided, double computed);
 
 // Limits of the resources of a step.
 struct StepLimits {
@@ -63,5 +64,7 @@ Prediction predict_colours(const ColourWork& work, uint64_t file, const StepLimi
 
 // CPU seconds of baking a scene of `triangles` triangles without a plan. `cost`: of voxelizing.
 double cpu_of_bake(double cost, const NodeCounts& found, uint64_t triangles);
+// Its seconds on `threads` threads; one reads the scene.
+double seconds_of_bake(double cpu, uint64_t triangles, size_t threads);
 
 }  // namespace svdag

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "builder/farm/planner/predict.h"
 #include "io/units.h"
 #include "streaming/printable.h"
 #include "streaming/process/shell.h"
@@ -81,7 +82,7 @@ void print_plan(const Plan& plan, bool steps) {
 Prediction bake_of(const Plan& plan) {
   Prediction p = plan.steps.front().predicted;
   p.cpu = plan.one_bake_cpu;
-  p.seconds = p.cpu / double(plan.steps.front().threads);
+  p.seconds = seconds_of_bake(p.cpu, plan.counts.scene.triangles, plan.steps.front().threads);
   const Prediction& last = plan.steps.back().predicted;
   p.output = last.output;
   if (!plan.colours) return p;

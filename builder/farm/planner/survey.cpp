@@ -55,7 +55,7 @@ bool may_meet(const LatticeTriangle& triangle, const Grid& grid, int level,
 }
 
 // Triangles of dense scans are much smaller than the voxels of a survey: one inside a voxel sets
-// what all others inside it do. Remembers the voxels of the newest triangles.
+// what all others inside it do. Remembers the newest voxel of each place in blocks of 16^3.
 class InsideVoxels {
  public:
   explicit InsideVoxels(int fraction) : fraction_(fraction) {}
@@ -68,8 +68,8 @@ class InsideVoxels {
       voxel[a] = last_touched(box.max[a], fraction_);
       if (first_touched(box.min[a], fraction_) != voxel[a]) return false;
     }
-    const size_t hash = size_t(voxel.x + 31 * voxel.y + 977 * voxel.z) % newest_.size();
-    return std::exchange(newest_[hash], voxel) == voxel;
+    const size_t place = size_t(voxel.x & 15 | (voxel.y & 15) << 4 | (voxel.z & 15) << 8);
+    return std::exchange(newest_[place], voxel) == voxel;
   }
 
  private:
@@ -112,7 +112,7 @@ Survey::Survey(const Grid& grid, int level, int cell_level, const SurveyConfig& 
 double Survey::cpu() const {
   const DescentCounts& counts = descent_.counts();
   return descent_cpu(std::accumulate(counts.divided.begin(), counts.divided.end(), 0.0),
-                     double(counts.memo.computed));
+                     double(counts.decisions.total), double(counts.memo.computed));
 }
 
 bool Survey::count(SpillFile* file, const TriangleBin& bin, const CellFilter& filter,

@@ -73,11 +73,11 @@ TEST_F(SurveyTest, CountsChosenCellsAsIfAllWereCounted) {
   }
 }
 
-// Voxels of the survey are 4 voxels of the grid wide; most triangles lie inside one.
+// Voxels of the survey are 4 voxels of the grid wide; most triangles lie inside one of 11^3.
 TEST_F(SurveyTest, CountsManyTrianglesInsideAVoxelAsOne) {
   std::vector<Triangle> soup = random_soup(20000, 0.004, 8);
   for (Triangle& triangle : soup) {
-    for (Point& corner : triangle.v) corner = 0.1 * corner + Point(0.3);
+    for (Point& corner : triangle.v) corner = 0.04 * corner + Point(0.3);
   }
   const std::vector<LatticeTriangle> all = snapped(soup);
   std::vector<LatticeTriangle> alone;  // of those inside a voxel, the first
