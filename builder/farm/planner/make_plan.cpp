@@ -101,6 +101,7 @@ class Planner {
   Scene scene_;
   InputWatch inputs_;  // the scene's files
   std::unique_ptr<SpillFile> triangles_;
+  bool spilled_ = false;  // the scene's triangles did not fit in memory
   Plan plan_;
 };
 
@@ -137,6 +138,7 @@ void Planner::read_scene() {
   split_config.scratch = workspace_.scratch();
   SplitScene scene = split(scene_, plan_.grid, split_config, workspace_.budget());
   inputs_.check();
+  spilled_ = scene.tree == nullptr;
   plan_.counts = scene.counts;
   plan_.layers = scene.layers;
   for (const CutOut& cut : scene.cut_outs) {  // copies, since the plan outlives the budget
@@ -181,8 +183,8 @@ void Planner::make_steps() {
   config.descent.memo_bytes = config.table_bytes / 8;
   const Pilot pilot(plan_.grid, plan_.bins, triangles_.get(), config, config_.shards,
                     workspace_.budget());
-  plan_.cells = pilot.cells().size();
-  plan_.one_bake_cpu = cpu_of_bake(pilot.cost(), pilot.found(), plan_.counts.scene.triangles);
+  plan_.cells = pilot.cell_count();
+  plan_.one_bake_cpu = cpu_of_bake(pilot.cost(), pilot.found(), plan_.counts.scene.triangles, spilled_);
   const std::vector<CellRange> shards =
       cut_evenly(pilot.cells(), pilot.cell_level(), config_.shards);
   progress_->phase("survey shards", 0);

@@ -18,11 +18,9 @@ constexpr int kCellLevel = 6;  // as in builder/bake/bake.cpp
 constexpr int kMaxCellLevel = 8;
 constexpr double kSampleShare = 0.03;  // of the cells
 constexpr size_t kMaxSamples = 512, kMinSamples = 8;
-// Of larger scenes about so many triangles are surveyed, but no fewer bins than this.
-constexpr uint64_t kSurveyedTriangles = uint64_t(8) << 20, kSurveyedBins = 32;
-constexpr uint64_t kBinsPerShard = 2;  // surveyed on average
-constexpr uint64_t kLight = 8;         // a bin with less than a mean bin's triangles / kLight
-constexpr double kRepetition = 0.9;    // the exponent of unique nodes
+constexpr uint64_t kMinBins = 32, kMinBinsPerShard = 2;  // surveyed, of a large scene
+constexpr uint64_t kLight = 8;       // a bin with less than a mean bin's triangles / kLight
+constexpr double kRepetition = 0.9;  // the exponent of unique nodes
 // Seconds per triangle if all bins are too heavy to survey (tests/bench/plan.py --calibrate).
 constexpr double kUnsurveyedTriangle = 8.31e-6;
 
@@ -62,8 +60,8 @@ Pilot::Pilot(const Grid& grid, const std::vector<TriangleBin>& bins, SpillFile* 
   level_ =
       std::min(grid.levels, std::clamp(grid.levels - kLevelsCoarser, min_level, kMaxPilotLevel));
   const uint64_t triangles = triangles_of(bins);
-  const uint64_t least = std::max(kSurveyedBins, kBinsPerShard * shards);
-  stride_ = size_t(std::clamp(triangles / kSurveyedTriangles, uint64_t(1),
+  const uint64_t least = std::max(kMinBins, kMinBinsPerShard * shards);
+  stride_ = size_t(std::clamp(triangles / config.pilot_triangles, uint64_t(1),
                               std::max(bins.size() / least, uint64_t(1))));
   light_ = triangles / (kLight * std::max(bins.size(), size_t(1)));
   while (level_ > min_level && triangles >> 2 * level_ >= kDense) --level_;
@@ -108,22 +106,21 @@ double Pilot::survey_coarsely() {
   }
   coarse_found_ = scaled(survey.found(), triangles_of(bins_), triangles);
   double max = 0, all = 0;
+  cell_count_ = 0;
   for (const auto& [code, cell] : coarse_) {
     cells_.push_back({code, cell.cpu});
     max = std::max(max, cell.cpu);
     all += cell.weight * cell.cpu;
+    cell_count_ += cell.weight;
   }
   return all > 0 ? max / all : 0;
 }
 
 // Draws cells at equal intervals of their cumulative cost.
 void Pilot::draw() {
-  double all = 0, cells = 0;
-  for (const auto& [code, cell] : coarse_) {
-    all += cell.weight * cell.cpu;
-    cells += cell.weight;
-  }
-  const size_t count = std::clamp(size_t(kSampleShare * cells), kMinSamples, kMaxSamples);
+  double all = 0;
+  for (const auto& [code, cell] : coarse_) all += cell.weight * cell.cpu;
+  const size_t count = std::clamp(size_t(kSampleShare * cell_count_), kMinSamples, kMaxSamples);
   const double interval = all / double(count);
   double before = 0, next = interval / 2;
   for (auto& [code, cell] : coarse_) {

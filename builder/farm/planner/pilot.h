@@ -37,6 +37,8 @@ class Pilot {
         const SurveyConfig& config, size_t shards, MemoryBudget* budget);
 
   int cell_level() const { return cell_level_; }
+  // Non-empty cells; an estimate if not all bins were surveyed.
+  size_t cell_count() const { return size_t(cell_count_); }
   // CPU seconds of voxelizing each non-empty cell at the grid's level, in Morton order. A bin that
   // was not surveyed counts as its first cell.
   const std::vector<CellCost>& cells() const { return cells_; }
@@ -79,6 +81,7 @@ class Pilot {
   int cell_level_ = 0;
   std::map<uint64_t, CoarseCell> coarse_;  // by Morton code
   std::vector<bool> surveyed_;             // by bin
+  double cell_count_ = 0;
   NodeCounts coarse_found_;
   double growth_ = 1;  // of costs, from the coarse survey to the grid's level
   Sample few_, fine_;  // the drawn cells in the coarse survey and at the grid's level

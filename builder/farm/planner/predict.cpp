@@ -14,14 +14,14 @@ namespace {
 // Seconds, as printed by tests/bench/plan.py --calibrate.
 constexpr double kStart = 0.0156;        // start of a process
 constexpr double kTriangle = 625.8e-9;   // read, snapped or from a bin, and prepared
+constexpr double kSpilled = 150e-9;      // more, if it is spilled
 constexpr double kDivided = 436.6e-9;    // a cube divided
 constexpr double kDecided = 0.54e-9;     // a voxel decided for a triangle
 constexpr double kComputed = 176.4e-9;   // a node computed for the plane memo
 constexpr double kFound = 263.3e-9;      // a unique node: numbered, sorted, written
 constexpr double kMergeRead = 153.4e-9;  // a node that a merge reads
 constexpr double kNodeInFile = 22.4;     // bytes of a node in a .svdag
-// By one thread, of the time of a triangle: bounds and split of scans of 10^8 and 10^9 triangles.
-constexpr double kReadAlone = 180e-9;
+constexpr double kReadAlone = 180e-9;    // of the seconds of a triangle, those of one thread
 // Of the colour pass, fitted by hand to nine textured scenes: right within a factor of two.
 constexpr double kPainted = 1200e-9;   // a triangle: read, snapped, prepared
 constexpr double kTexel = 60e-9;       // decoded, with its mip map
@@ -44,8 +44,9 @@ double descent_cpu(double divided, double decided, double computed) {
   return kDivided * divided + kDecided * decided + kComputed * computed;
 }
 
-double cpu_of_bake(double cost, const NodeCounts& found, uint64_t triangles) {
-  return kStart + kTriangle * double(triangles) + cost + kFound * found.keys();
+double cpu_of_bake(double cost, const NodeCounts& found, uint64_t triangles, bool spilled) {
+  const double each = kTriangle + (spilled ? kSpilled : 0);
+  return kStart + each * double(triangles) + cost + kFound * found.keys();
 }
 
 double seconds_of_bake(double cpu, uint64_t triangles, size_t threads) {
@@ -61,7 +62,7 @@ Prediction predict_shard(const ShardWork& shard, const StepLimits& limits) {
       2 * (kFreezeBytesPerNode * shard.found.nodes + kFreezeBytesPerBrick * shard.found.bricks);
   const double bin = 4 * kPerTriangle * double(shard.heaviest_bin);
   Prediction p;
-  p.cpu = cpu_of_bake(shard.cost, shard.found, shard.triangles);
+  p.cpu = cpu_of_bake(shard.cost, shard.found, shard.triangles, false);
   p.seconds = kStart + (p.cpu - kStart) / double(limits.threads);
   p.budget = budget_for(kMargin * std::max(tables, bin), limits);
   p.memory = p.budget + kBesideBudget;

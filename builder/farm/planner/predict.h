@@ -62,8 +62,9 @@ struct ColourWork {
 // `file`: the bytes of the file without colours.
 Prediction predict_colours(const ColourWork& work, uint64_t file, const StepLimits& limits);
 
-// CPU seconds of baking a scene of `triangles` triangles without a plan. `cost`: of voxelizing.
-double cpu_of_bake(double cost, const NodeCounts& found, uint64_t triangles);
+// CPU seconds of baking a scene of `triangles` triangles without a plan. `cost`: of voxelizing;
+// `spilled`: the triangles do not fit in memory.
+double cpu_of_bake(double cost, const NodeCounts& found, uint64_t triangles, bool spilled);
 // Its seconds on `threads` threads; one reads the scene.
 double seconds_of_bake(double cpu, uint64_t triangles, size_t threads);
 

@@ -20,6 +20,7 @@ struct SurveyConfig {
   DescentConfig descent;
   uint64_t table_bytes = UINT64_MAX;     // node table; when full, nodes may be counted repeatedly
   uint64_t triangle_bytes = UINT64_MAX;  // bins with more bytes of triangles are skipped
+  uint64_t pilot_triangles = 8 << 20;    // of larger scenes a pilot surveys about so many
 };
 
 class Survey {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "builder/farm/planner/balance.h"
+#include "io/lattice.h"
 #include "tests/builder/farm/plans.h"
 #include "tests/temp_folder.h"
 
@@ -39,6 +41,48 @@ TEST_F(Pilots, PredictNodesOfPlanes) {
 
 TEST_F(Pilots, PredictNodesOfATriangleSoup) {
   judge(random_soup(2000, 0.02, 3), 1.4);
+}
+
+// A large scene, of which only one bin in four is surveyed, and all with few triangles: here one
+// with a triangle beside the sphere.
+TEST_F(Pilots, ASampleOfTheBinsStandsForAll) {
+  Grid grid;
+  grid.levels = 12;
+  grid.selection = grid.whole();
+  TempFolder temp;
+  MemoryBudget budget(uint64_t(64) << 20);
+  ScratchDir folder(temp.file("scratch"));
+  Scratch scratch(&folder, &budget);
+  TriangleBins binned(grid, Cube(), 3, scratch.triangles(), &scratch);
+  std::vector<Triangle> scene = bumpy_sphere(200);
+  scene.push_back({{Point(-1.1, -1.1, -1.1), Point(-0.9, -1.1, -1.1), Point(-1.1, -0.9, -1.1)}});
+  const Lattice lattice(grid);
+  double move = 0;
+  for (const Triangle& triangle : scene) {
+    LatticeTriangle snapped;
+    for (size_t i = 0; i < 3; ++i)
+      snapped.v[i] = lattice.snap((triangle.v[i] + 1.2) / 2.4 * 4096.0, &move);
+    binned.add(snapped);
+  }
+  const std::vector<TriangleBin> bins = binned.finish();
+  SurveyConfig config;
+  const Pilot all(grid, bins, scratch.triangles(), config, 4, &budget);
+  config.pilot_triangles = scene.size() / 4;
+  const Pilot sample(grid, bins, scratch.triangles(), config, 4, &budget);
+  ASSERT_LT(sample.cells().size(), all.cells().size() / 2);
+  const auto near = [](double a, double b) { EXPECT_NEAR(a / b, 1, 0.25) << a << " and " << b; };
+  near(double(sample.cell_count()), double(all.cell_count()));
+  near(sample.cost(), all.cost());
+  near(sample.found().keys(), all.found().keys());
+  const std::vector<CellRange> shards = cut_evenly(sample.cells(), sample.cell_level(), 4);
+  const std::vector<ShardWork> works = sample.works_of(shards), whole = all.works_of(shards);
+  double cost = 0;
+  for (size_t i = 0; i < works.size(); ++i) {
+    near(works[i].found.keys(), whole[i].found.keys());
+    EXPECT_EQ(works[i].triangles, whole[i].triangles);
+    cost += works[i].cost;
+  }
+  EXPECT_NEAR(cost, sample.cost(), 1e-9 * cost);
 }
 
 }  // namespace
