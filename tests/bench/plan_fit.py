@@ -8,7 +8,7 @@ import statistics
 
 import numpy
 
-SECONDS = ["kStart", "kTriangle", "kDivided", "kDecided", "kComputed", "kFound", "kMergeRead"]
+SECONDS = ["kStart", "kTriangle", "kDivided", "kComputed", "kFound", "kMergeRead"]
 FEW_TRIANGLES = 1000
 
 
@@ -17,11 +17,11 @@ def samples(rows):
     found = []
     for row in rows:
         report = row["report"]
-        work = [sum(report["cubes_divided"]), report["decisions"], report["plane_memo"]["computed"]]
+        work = [sum(report["cubes_divided"]), report["plane_memo"]["computed"]]
         seconds, nodes = report["seconds"], sum(report["nodes"])
         found.append(([1, report["triangles"], *work, nodes, 0], seconds["cpu"]))
         # A node found costs no less than its sort, else the fit mistakes it for a cube divided.
-        found.append(([0, 0, 0, 0, 0, nodes, 0], seconds["sort"] + seconds["merge"] + seconds["write"]))
+        found.append(([0, 0, 0, 0, nodes, 0], seconds["sort"] + seconds["merge"] + seconds["write"]))
         # The shards of a plan together do the work of the bake, except for scenes of a few large triangles, whose
         # planes every shard computes again.
         shards = [step for step in row["steps"] if not step["inputs"]]
@@ -30,7 +30,7 @@ def samples(rows):
                           sum(s["measured"]["cpu_seconds"] for s in shards)))
         keys = {step["name"]: step["keys"] for step in row["steps"]}
         for merge in (step for step in row["steps"] if step["inputs"]):
-            found.append(([1, 0, 0, 0, 0, 0, sum(keys[i] for i in merge["inputs"])], merge["measured"]["cpu_seconds"]))
+            found.append(([1, 0, 0, 0, 0, sum(keys[i] for i in merge["inputs"])], merge["measured"]["cpu_seconds"]))
     return found
 
 

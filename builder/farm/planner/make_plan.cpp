@@ -184,7 +184,8 @@ void Planner::make_steps() {
   const Pilot pilot(plan_.grid, plan_.bins, triangles_.get(), config, config_.shards,
                     workspace_.budget());
   plan_.cells = pilot.cell_count();
-  plan_.one_bake_cpu = cpu_of_bake(pilot.cost(), pilot.found(), plan_.counts.scene.triangles, spilled_);
+  plan_.one_bake_cpu =
+      cpu_of_bake(pilot.cost(), pilot.found(), plan_.counts.scene.triangles, spilled_);
   const std::vector<CellRange> shards =
       cut_evenly(pilot.cells(), pilot.cell_level(), config_.shards);
   progress_->phase("survey shards", 0);

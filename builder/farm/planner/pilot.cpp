@@ -22,7 +22,7 @@ constexpr uint64_t kMinBins = 32, kMinBinsPerShard = 2;  // surveyed, of a large
 constexpr uint64_t kLight = 8;       // a bin with less than a mean bin's triangles / kLight
 constexpr double kRepetition = 0.9;  // the exponent of unique nodes
 // Seconds per triangle if all bins are too heavy to survey (tests/bench/plan.py --calibrate).
-constexpr double kUnsurveyedTriangle = 8.31e-6;
+constexpr double kUnsurveyedTriangle = 8.02e-6;
 
 // Unique nodes at the grid's level, if `coarse` were found by the coarse survey.
 double extrapolate(double coarse, double sample_coarse, double sample_fine) {

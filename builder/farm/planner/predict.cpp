@@ -11,17 +11,17 @@
 namespace svdag {
 namespace {
 
-// Seconds, as printed by tests/bench/plan.py --calibrate.
-constexpr double kStart = 0.0156;        // start of a process
-constexpr double kTriangle = 625.8e-9;   // read, snapped or from a bin, and prepared
-constexpr double kSpilled = 150e-9;      // more, if it is spilled
-constexpr double kDivided = 436.6e-9;    // a cube divided
-constexpr double kDecided = 0.54e-9;     // a voxel decided for a triangle
-constexpr double kComputed = 176.4e-9;   // a node computed for the plane memo
-constexpr double kFound = 263.3e-9;      // a unique node: numbered, sorted, written
-constexpr double kMergeRead = 153.4e-9;  // a node that a merge reads
+// Seconds: geometric means of what tests/bench/plan.py --calibrate printed in three hours, in which
+// the machine's speed differed by 1.8.
+constexpr double kStart = 0.0149;        // start of a process
+constexpr double kTriangle = 875.6e-9;   // read, snapped or from a bin, and prepared
+constexpr double kSpilled = 95.18e-9;    // more, if it is spilled
+constexpr double kDivided = 552.5e-9;    // a cube divided
+constexpr double kComputed = 181.3e-9;   // a node computed for the plane memo
+constexpr double kFound = 222.4e-9;      // a unique node: numbered, sorted, written
+constexpr double kMergeRead = 145.8e-9;  // a node that a merge reads
 constexpr double kNodeInFile = 22.4;     // bytes of a node in a .svdag
-constexpr double kReadAlone = 180e-9;    // of the seconds of a triangle, those of one thread
+constexpr double kReadAlone = 147.5e-9;  // of the seconds of a triangle, those of one thread
 // Of the colour pass, fitted by hand to nine textured scenes: right within a factor of two.
 constexpr double kPainted = 1200e-9;   // a triangle: read, snapped, prepared
 constexpr double kTexel = 60e-9;       // decoded, with its mip map
@@ -40,8 +40,8 @@ uint64_t budget_for(double need, const StepLimits& limits) {
 
 }  // namespace
 
-double descent_cpu(double divided, double decided, double computed) {
-  return kDivided * divided + kDecided * decided + kComputed * computed;
+double descent_cpu(double divided, double computed) {
+  return kDivided * divided + kComputed * computed;
 }
 
 double cpu_of_bake(double cost, const NodeCounts& found, uint64_t triangles, bool spilled) {

@@ -112,7 +112,7 @@ Survey::Survey(const Grid& grid, int level, int cell_level, const SurveyConfig& 
 double Survey::cpu() const {
   const DescentCounts& counts = descent_.counts();
   return descent_cpu(std::accumulate(counts.divided.begin(), counts.divided.end(), 0.0),
-                     double(counts.decisions.total), double(counts.memo.computed));
+                     double(counts.memo.computed));
 }
 
 bool Survey::count(SpillFile* file, const TriangleBin& bin, const CellFilter& filter,
