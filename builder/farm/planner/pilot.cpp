@@ -35,9 +35,10 @@ uint64_t triangles_of(const std::vector<TriangleBin>& bins) {
   return triangles;
 }
 
-// Unique nodes of `all` triangles, if `counts` were found in `some`.
+// Coarse nodes for `all` triangles, if `counts` were found in `some`. They measure how much of the
+// scene that is; extrapolate() says what repeats.
 NodeCounts scaled(const NodeCounts& counts, uint64_t all, uint64_t some) {
-  const double times = std::pow(double(all) / double(std::max(some, uint64_t(1))), kRepetition);
+  const double times = double(all) / double(std::max(some, uint64_t(1)));
   return {times * counts.nodes, times * counts.bricks};
 }
 
