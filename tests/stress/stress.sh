@@ -46,11 +46,15 @@ one_hash() {  # the same bytes with every compiler and flag
   bash tests/stress/one_hash.sh
 }
 
-arm64() {  # under QEMU, which has no seccomp filters, and whose programs may be unable to start themselves again
+arm64() {  # under QEMU, which has no seccomp filters
   make arm64
   release svdag svdag-scene svdag-trace
   cmake --build --preset arm64 --target streaming_test io_test dag_test builder_test
-  GTEST_FILTER='-LimitedChild.*:MappedFile.AProgramWhoseFileChangedFails:MappedFile.AChangeIsReported*' ctest --test-dir build/arm64 -R '^(streaming|io|dag|builder)_test$' --timeout 7200 \
+  impossible='LimitedChild.*'
+  # Tests that start their program again need a kernel that hands it to QEMU.
+  build/arm64/svdag --version >/dev/null 2>&1 ||
+    impossible="$impossible:MappedFile.AProgramWhoseFileChangedFails:MappedFile.AChangeIsReported*"
+  GTEST_FILTER="-$impossible" ctest --test-dir build/arm64 -R '^(streaming|io|dag|builder)_test$' --timeout 7200 \
     --output-on-failure --no-tests=error
   /usr/bin/python3 -B tests/arm64/same_bytes.py build/release build/arm64 qemu-aarch64-static
 }

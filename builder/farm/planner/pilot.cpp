@@ -21,7 +21,8 @@ constexpr size_t kMaxSamples = 512, kMinSamples = 8;
 constexpr uint64_t kMinBins = 32, kMinBinsPerShard = 2;  // surveyed, of a large scene
 constexpr uint64_t kLight = 8;       // a bin with less than a mean bin's triangles / kLight
 constexpr double kRepetition = 0.9;  // the exponent of unique nodes
-// Seconds per triangle if all bins are too heavy to survey (tests/bench/plan.py --calibrate).
+// Seconds per triangle of a bin too heavy to survey, if no others are left out (--calibrate of
+// tests/bench/plan.py).
 constexpr double kUnsurveyedTriangle = 8.02e-6;
 
 // Unique nodes at the grid's level, if `coarse` were found by the coarse survey.

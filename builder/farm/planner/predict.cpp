@@ -12,7 +12,7 @@ namespace svdag {
 namespace {
 
 // Seconds: geometric means of what tests/bench/plan.py --calibrate printed in three hours, in which
-// the machine's speed differed by 1.8.
+// the machine's speed differed by 1.8; kSpilled and kReadAlone in one of them.
 constexpr double kStart = 0.0149;        // start of a process
 constexpr double kTriangle = 875.6e-9;   // read, snapped or from a bin, and prepared
 constexpr double kSpilled = 95.18e-9;    // more, if it is spilled
