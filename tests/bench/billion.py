@@ -152,7 +152,7 @@ def rows(results):
     if bake["progress"]:
         out.append(["largest error of the remaining time after a tenth", "25 %", f"{worst_remaining(bake):.0%}"])
     if dry is not None:
-        pairs = [(dry["cpu_seconds"], bake["cpu"]), (dry["seconds"], seconds["total"]), (dry["memory_bytes"], bake["own"]),
+        pairs = [(dry["cpu_seconds"], bake["cpu"]), (dry["seconds"], seconds["total"]), (dry["expected_memory_bytes"], bake["own"]),
                  (dry["output_bytes"] + dry["scratch_bytes"], disk)]
         out.append(["predicted / taken: CPU, wall, memory, disk", "±30 %", ", ".join(f"{p / taken:.2f}" for p, taken in pairs)])
     if "judged" in results:

@@ -135,11 +135,11 @@ $ svdag batch list.json --dry-run -j 1 -m 200M
 |* old.svdag: 128^3, 2 triangles in * cells
 |*   about * CPU seconds, * s on 1 thread
 |*   a file of about * *, scratch of about 0 bytes
-|*   at most * * of memory with --memory *M
+|*   memory of about * *, at most * * with --memory *M
 |* new.svdag: 256^3, 2 triangles in * cells
 |*   about * CPU seconds, * s on 1 thread
 |*   a file of about * *, scratch of about 0 bytes
-|*   at most * * of memory with --memory *M
+|*   memory of about * *, at most * * with --memory *M
 | 2 of 2 predicted, 0 failed
 |*   in all about * CPU seconds, * s; files of about * *, scratch of at most 0 bytes and memory of at most * * at once
 $ cmp old.svdag kept.svdag

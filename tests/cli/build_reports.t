@@ -6,7 +6,7 @@ $ svdag-scene speck -n 100 -q -o s.ply
 $ svdag build s.ply -r 64 -o a.svdag --json --report r.json > out.json
 $ cmp out.json r.json
 $ svdag build s.ply -r 64 -o b.svdag --json --dry-run | python3 -c 'import json, sys; print(sorted(json.load(sys.stdin)))'
-| ['budget_bytes', 'cells', 'cpu_seconds', 'memory_bytes', 'output_bytes', 'output_free_bytes', 'resolution', 'scratch_bytes', 'scratch_free_bytes', 'seconds', 'threads', 'triangles']
+| ['budget_bytes', 'cells', 'cpu_seconds', 'expected_memory_bytes', 'memory_bytes', 'output_bytes', 'output_free_bytes', 'resolution', 'scratch_bytes', 'scratch_free_bytes', 'seconds', 'threads', 'triangles']
 $ svdag build s.ply -r 64 --dry-run -q && ls | grep dry  # without an output
 ? 1
 $ svdag build s.ply -r 64 -q

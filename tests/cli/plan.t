@@ -6,7 +6,7 @@ $ svdag build c.ply -r 512 -o c.svdag --dry-run -j 1 -m 200M
 | c.svdag: 512^3, 4,992 triangles in 108 cells
 |*   about * CPU seconds, * s on 1 thread
 |*   a file of about * *, scratch of about 0 bytes
-|*   at most * * of memory with --memory 80M
+|*   memory of about * *, at most * * with --memory 80M
 $ ls
 | c.ply
 
@@ -18,7 +18,7 @@ $ svdag build cut.glb -o dry.svdag -r 128 --colours --dry-run -j 1 -m 200M
 | dry.svdag: 128^3, 1,350 triangles in 8 cells
 |*   about * CPU seconds, * s on 1 thread
 |*   a file of about * *, scratch of about * *
-|*   at most * * of memory with --memory 80M
+|*   memory of about * *, at most * * with --memory 80M
 |   1,200 triangles are cut out by the alpha of their material
 $ svdag plan cut.glb -r 128 --shards 3 --colours --colour-error 3 --allow-empty --exclude 'whole*' -o p -m 200M
 |* */p: 128^3, 1,200 triangles in * bins; one bake would take * CPU seconds

@@ -64,9 +64,10 @@ struct Plan {
   ContentOptions content;              // of a loaded plan: those that the shards use
   std::optional<PlanColours> colours;  // the last step adds them
   SplitCounts counts;
-  double one_bake_cpu = 0;      // seconds, predicted
-  size_t cells = 0;             // number of non-empty cells
-  std::vector<PlanStep> steps;  // shards first, in order; each other one after its inputs
+  double one_bake_cpu = 0;       // seconds, predicted
+  uint64_t one_bake_memory = 0;  // peak in bytes, estimated; 0 in a loaded plan
+  size_t cells = 0;              // number of non-empty cells
+  std::vector<PlanStep> steps;   // shards first, in order; each other one after its inputs
   // The index.
   size_t block_bytes = 0;
   std::vector<TriangleBin> bins;

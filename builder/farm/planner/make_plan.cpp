@@ -186,6 +186,8 @@ void Planner::make_steps() {
   plan_.cells = pilot.cell_count();
   plan_.one_bake_cpu =
       cpu_of_bake(pilot.cost(), pilot.found(), plan_.counts.scene.triangles, spilled_);
+  plan_.one_bake_memory = memory_of_bake(pilot.found(), plan_.counts.scene.triangles, spilled_,
+                                         workspace_.budget()->limit());
   const std::vector<CellRange> shards =
       cut_evenly(pilot.cells(), pilot.cell_level(), config_.shards);
   progress_->phase("survey shards", 0);
@@ -213,6 +215,8 @@ void Planner::add_colours() {
   step.threads = config_.step_threads;
   step.predicted = predict_colours(work, merge.predicted.output, limits());
   plan_.one_bake_cpu += step.predicted.cpu;
+  plan_.one_bake_memory =
+      std::max(plan_.one_bake_memory, memory_of_colours(work, workspace_.budget()->limit()));
   plan_.steps.push_back(step);
 }
 

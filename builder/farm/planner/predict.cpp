@@ -7,6 +7,7 @@
 #include "builder/colours/prepared_triangles.h"
 #include "builder/colours/spilled_colours.h"
 #include "builder/reduce/run.h"
+#include "builder/workspace/memory_shares.h"
 
 namespace svdag {
 namespace {
@@ -29,6 +30,7 @@ constexpr double kPair = 400e-9;       // a triangle and a cube
 constexpr double kCube = 450e-9;       // spilled, encoded, written
 constexpr double kColourInFile = 0.5;  // bytes of a cube's colours at the default error
 
+constexpr double kProcess = 25e6;  // bytes of memory that no input needs
 constexpr uint64_t kMiB = uint64_t(1) << 20;
 
 uint64_t budget_for(double need, const StepLimits& limits) {
@@ -36,6 +38,10 @@ uint64_t budget_for(double need, const StepLimits& limits) {
   const uint64_t max = limits.memory != 0 ? std::max(limits.memory, min) : UINT64_MAX;
   const double whole = std::ceil(need / double(kMiB)) * double(kMiB);
   return std::clamp(uint64_t(std::min(whole, 1e18)), min, max);
+}
+
+double freeze_bytes(const NodeCounts& found) {
+  return kFreezeBytesPerNode * found.nodes + kFreezeBytesPerBrick * found.bricks;
 }
 
 }  // namespace
@@ -54,12 +60,21 @@ double seconds_of_bake(double cpu, uint64_t triangles, size_t threads) {
   return alone + (cpu - alone) / double(threads);
 }
 
+// The shares are those of builder/workspace/memory_shares.h. A bin's tree takes about half of its
+// share, and a table has less than freeze_bytes() when it is emptied.
+uint64_t memory_of_bake(const NodeCounts& found, uint64_t triangles, bool spilled, uint64_t limit) {
+  constexpr double kTriangleInTree = 56, kOfFreezeBytes = 0.8;
+  const MemoryShares shares(limit);
+  const double tree = spilled ? double(shares.triangles) / 2 : kTriangleInTree * double(triangles);
+  const double tables = std::min(freeze_bytes(found), double(shares.table));
+  return uint64_t(kProcess + tree + kOfFreezeBytes * tables);
+}
+
 Prediction predict_shard(const ShardWork& shard, const StepLimits& limits) {
   // A table gets half of the budget, a bin's triangles a quarter (builder/bake/bake.cpp). The
   // margin covers errors of the estimated node counts.
   constexpr double kMargin = 1.5, kPerTriangle = 400;
-  const double tables =
-      2 * (kFreezeBytesPerNode * shard.found.nodes + kFreezeBytesPerBrick * shard.found.bricks);
+  const double tables = 2 * freeze_bytes(shard.found);
   const double bin = 4 * kPerTriangle * double(shard.heaviest_bin);
   Prediction p;
   p.cpu = cpu_of_bake(shard.cost, shard.found, shard.triangles, false);
@@ -108,6 +123,13 @@ Prediction predict_colours(const ColourWork& work, uint64_t file, const StepLimi
   p.scratch = uint64_t(double(SpilledColours::kEntryBytes) * work.cubes +
                        (spills ? kMargin * sizeof(PaintedTriangle) * double(work.triangles) : 0));
   return p;
+}
+
+uint64_t memory_of_colours(const ColourWork& work, uint64_t limit) {
+  const double triangles = std::min(double(PreparedTriangles::kBytes) * double(work.triangles),
+                                    double(MemoryShares(limit).triangles));
+  const double images = double(LinearImage::bytes(work.texels));
+  return uint64_t(kProcess + std::max(double(work.read_bytes), images + triangles));
 }
 
 }  // namespace svdag

@@ -3,9 +3,10 @@
 // The model is linear in triangles, cubes divided, nodes computed for the plane memo and nodes
 // found (builder/farm/planner/survey.h). Its constants were fitted to bakes of generated scenes on
 // one machine (tests/bench/plan.py --calibrate repeats this, and validates them on other scenes).
-// Seconds are those of that machine; the ratios between shards hold on any machine. Memory is a
-// limit, not an estimate: a step stays within it. Rejected: a term for the voxels that triangles
-// decide (11 instead of 14 % off, but samples drawn by it predict the bytes of shards worse).
+// Seconds are those of that machine; the ratios between shards hold on any machine. The memory of
+// a step is a limit, not an estimate: it stays within it. Rejected: a term for the voxels that
+// triangles decide (11 instead of 14 % off, but samples drawn by it predict the bytes of shards
+// worse).
 #pragma once
 
 #include "builder/farm/plan/plan.h"
@@ -61,11 +62,15 @@ struct ColourWork {
 
 // `file`: the bytes of the file without colours.
 Prediction predict_colours(const ColourWork& work, uint64_t file, const StepLimits& limits);
+// Its peak memory in bytes, where --memory allows `limit`: right within a factor of two.
+uint64_t memory_of_colours(const ColourWork& work, uint64_t limit);
 
 // CPU seconds of baking a scene of `triangles` triangles without a plan. `cost`: of voxelizing;
 // `spilled`: the triangles do not fit in memory.
 double cpu_of_bake(double cost, const NodeCounts& found, uint64_t triangles, bool spilled);
 // Its seconds on `threads` threads; one reads the scene.
 double seconds_of_bake(double cpu, uint64_t triangles, size_t threads);
+// Its peak memory in bytes, where --memory allows `limit`.
+uint64_t memory_of_bake(const NodeCounts& found, uint64_t triangles, bool spilled, uint64_t limit);
 
 }  // namespace svdag

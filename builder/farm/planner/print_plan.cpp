@@ -100,11 +100,13 @@ void print_bake_json(const Plan& plan, const FreeDisk& disk) {
   std::printf(
       "{\"resolution\": %llu, \"triangles\": %llu, \"cells\": %zu, \"threads\": %zu, "
       "\"cpu_seconds\": %.3f, \"seconds\": %.3f, \"budget_bytes\": %llu, \"memory_bytes\": %llu, "
+      "\"expected_memory_bytes\": %llu, "
       "\"output_bytes\": %llu, \"output_free_bytes\": %llu, \"scratch_bytes\": %llu, "
       "\"scratch_free_bytes\": %llu}\n",
       whole(uint64_t(plan.grid.resolution())), whole(plan.counts.scene.triangles), plan.cells,
-      step.threads, p.cpu, p.seconds, whole(p.budget), whole(p.memory), whole(p.output),
-      whole(disk.output_bytes), whole(p.scratch), whole(disk.scratch_bytes));
+      step.threads, p.cpu, p.seconds, whole(p.budget), whole(p.memory),
+      whole(std::min(plan.one_bake_memory, p.memory)), whole(p.output), whole(disk.output_bytes),
+      whole(p.scratch), whole(disk.scratch_bytes));
 }
 
 void print_bake(const Plan& plan, const FreeDisk& disk, bool default_memory) {
@@ -123,8 +125,9 @@ void print_bake(const Plan& plan, const FreeDisk& disk, bool default_memory) {
   if (p.scratch > disk.scratch_bytes)
     std::printf("  not enough disk space for scratch: %s free (choose another with --scratch)\n",
                 format_bytes(disk.scratch_bytes).c_str());
-  std::printf("  at most %s of memory with --memory %lluM%s\n", format_bytes(p.memory).c_str(),
-              static_cast<unsigned long long>(p.budget >> 20),
+  std::printf("  memory of about %s, at most %s with --memory %lluM%s\n",
+              format_bytes(std::min(plan.one_bake_memory, p.memory)).c_str(),
+              format_bytes(p.memory).c_str(), static_cast<unsigned long long>(p.budget >> 20),
               default_memory ? " (not given: half of the machine's may be used)" : "");
 }
 

@@ -43,6 +43,23 @@ TEST_F(Pilots, PredictNodesOfATriangleSoup) {
   judge(random_soup(2000, 0.02, 3), 1.4);
 }
 
+// A coarse estimate: it counts the process as well, and two workers' tables may hold nodes twice.
+TEST_F(Pilots, ExpectTheMemoryOfABake) {
+  TempFolder folder;
+  const std::string scene = folder.file("scene.stl");
+  write_stl(scene, bumpy_sphere(60));
+  for (const uint64_t megabytes : {512, 96}) {  // the second is too small for the nodes
+    PlanConfig config = plan_config(scene, 13, "", 1);
+    config.build.memory = megabytes << 20;
+    config.build.output = folder.file("scene.svdag");
+    const uint64_t expected = plan_of(config).one_bake_memory;
+    const uint64_t counted = bake(config.build, 2).peak_counted;
+    std::printf("DBG %zu %zu\n", size_t(expected), size_t(counted));
+    EXPECT_GT(expected, counted / 2) << megabytes;
+    EXPECT_LT(expected, counted * 2) << megabytes;
+  }
+}
+
 // A large scene, of which only one bin in four is surveyed, and all with few triangles: here one
 // with a triangle beside the sphere.
 TEST_F(Pilots, ASampleOfTheBinsStandsForAll) {
