@@ -23,7 +23,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kPlanJson = "plan.json";
 // Changes with the keys of plan.json and the contents of the index and the bins.
-constexpr int kFormat = 10;
+constexpr int kFormat = 11;
 
 constexpr size_t kHashDigits = 32;
 
@@ -94,6 +94,18 @@ Prediction get_prediction(const Json& json) {
   return {json.at("cpu_seconds"),         json.at("seconds"),
           count_of(json, "budget_bytes"), count_of(json, "memory_bytes"),
           count_of(json, "output_bytes"), count_of(json, "scratch_bytes")};
+}
+
+Json one_bake_json(const OneBake& bake) {
+  return {{"cpu_seconds", rounded(bake.cpu)},
+          {"voxelize_seconds", rounded(bake.voxelize)},
+          {"memory_bytes", bake.memory},
+          {"cells", bake.cells}};
+}
+
+OneBake get_one_bake(const Json& json) {
+  return {json.at("cpu_seconds"), json.at("voxelize_seconds"), count_of(json, "memory_bytes"),
+          count_of(json, "cells")};
 }
 
 Json step_json(const Plan& plan, const PlanStep& step) {
@@ -181,8 +193,7 @@ void parse(const std::string& text, Plan* plan, std::string* index_hash) {
   if (!describes(plan->description, plan->content.rule, plan->grid))
     fail_plan(*plan, "rule and grid are not those of the description");
   visit_count_fields(plan->counts, GetJson{json.at("scene"), *plan});
-  plan->one_bake_cpu = json.at("one_bake").at("cpu_seconds");
-  plan->cells = count_of(json.at("one_bake"), "cells");
+  plan->one_bake = get_one_bake(json.at("one_bake"));
   if (json.contains("colours")) plan->colours = get_colours(json.at("colours"));
   *index_hash = json.at("index_hash");
   for (const Json& step : json.at("steps")) plan->steps.push_back(get_step(step, *plan));
@@ -228,7 +239,7 @@ std::string plan_json(const Plan& plan, const std::string& index_hash) {
   json["rule"] = rule_name(plan.content.rule);
   visit_count_fields(plan.counts, PutJson{&json["scene"]});
   if (plan.colours) json["colours"] = colours_json(*plan.colours);
-  json["one_bake"] = {{"cpu_seconds", rounded(plan.one_bake_cpu)}, {"cells", plan.cells}};
+  json["one_bake"] = one_bake_json(plan.one_bake);
   json["bins"] = plan.bins.size();
   json["index_hash"] = index_hash;
   for (const PlanStep& step : plan.steps) json["steps"].push_back(step_json(plan, step));

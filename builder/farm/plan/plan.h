@@ -35,6 +35,14 @@ struct Prediction {
   uint64_t scratch = 0;  // max bytes
 };
 
+// The prediction of one bake instead of all steps.
+struct OneBake {
+  double cpu = 0;       // seconds
+  double voxelize = 0;  // of these, what takes as long as the planner's sample
+  uint64_t memory = 0;  // peak in bytes: an estimate, not a limit
+  uint64_t cells = 0;   // that are not empty
+};
+
 struct PlanStep {
   std::string name;            // "shard-3", "merge-1", "colours"
   CellRange cells;             // of a shard; unused by others
@@ -64,10 +72,8 @@ struct Plan {
   ContentOptions content;              // of a loaded plan: those that the shards use
   std::optional<PlanColours> colours;  // the last step adds them
   SplitCounts counts;
-  double one_bake_cpu = 0;       // seconds, predicted
-  uint64_t one_bake_memory = 0;  // peak in bytes, estimated; 0 in a loaded plan
-  size_t cells = 0;              // number of non-empty cells
-  std::vector<PlanStep> steps;   // shards first, in order; each other one after its inputs
+  OneBake one_bake;
+  std::vector<PlanStep> steps;  // shards first, in order; each other one after its inputs
   // The index.
   size_t block_bytes = 0;
   std::vector<TriangleBin> bins;

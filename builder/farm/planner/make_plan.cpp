@@ -183,11 +183,11 @@ void Planner::make_steps() {
   config.descent.memo_bytes = config.table_bytes / 8;
   const Pilot pilot(plan_.grid, plan_.bins, triangles_.get(), config, config_.shards,
                     workspace_.budget());
-  plan_.cells = pilot.cell_count();
-  plan_.one_bake_cpu =
-      cpu_of_bake(pilot.cost(), pilot.found(), plan_.counts.scene.triangles, spilled_);
-  plan_.one_bake_memory = memory_of_bake(pilot.found(), plan_.counts.scene.triangles, spilled_,
-                                         workspace_.budget()->limit());
+  const uint64_t triangles = plan_.counts.scene.triangles;
+  plan_.one_bake = {
+      cpu_of_bake(pilot.cost(), pilot.found(), triangles, spilled_), pilot.cost(),
+      memory_of_bake(pilot.found(), triangles, spilled_, workspace_.budget()->limit()),
+      pilot.cell_count()};
   const std::vector<CellRange> shards =
       cut_evenly(pilot.cells(), pilot.cell_level(), config_.shards);
   progress_->phase("survey shards", 0);
@@ -214,9 +214,9 @@ void Planner::add_colours() {
   step.output = std::exchange(merge.output, "runs/" + merge.name + ".svdag");
   step.threads = config_.step_threads;
   step.predicted = predict_colours(work, merge.predicted.output, limits());
-  plan_.one_bake_cpu += step.predicted.cpu;
-  plan_.one_bake_memory =
-      std::max(plan_.one_bake_memory, memory_of_colours(work, workspace_.budget()->limit()));
+  plan_.one_bake.cpu += step.predicted.cpu;
+  plan_.one_bake.memory =
+      std::max(plan_.one_bake.memory, memory_of_colours(work, workspace_.budget()->limit()));
   plan_.steps.push_back(step);
 }
 

@@ -23,7 +23,7 @@ constexpr uint64_t kLight = 8;       // a bin with less than a mean bin's triang
 constexpr double kRepetition = 0.9;  // the exponent of unique nodes
 // Seconds per triangle of a bin too heavy to survey, if no others are left out (--calibrate of
 // tests/bench/plan.py).
-constexpr double kUnsurveyedTriangle = 8.02e-6;
+constexpr double kUnsurveyedTriangle = 6.36e-6;
 
 // Unique nodes at the grid's level, if `coarse` were found by the coarse survey.
 double extrapolate(double coarse, double sample_coarse, double sample_fine) {
@@ -72,8 +72,8 @@ Pilot::Pilot(const Grid& grid, const std::vector<TriangleBin>& bins, SpillFile* 
   draw();
   few_ = survey_sample(level_);
   fine_ = survey_sample(grid.levels);
-  growth_ = growth();
-  for (CellCost& cell : cells_) cell.cost *= growth_;
+  seconds_per_work_ = measured_rate();
+  for (CellCost& cell : cells_) cell.cost *= seconds_per_work_;
   add_other_bins();
 }
 
@@ -99,8 +99,8 @@ double Pilot::survey_coarsely() {
   for (size_t b = 0; b < bins_.size(); ++b) {
     const double weight = this->weight(bins_[b], b);
     if (weight == 0) continue;
-    surveyed_[b] = survey.count(file_, bins_[b], {}, [&](uint64_t cell, double cpu) {
-      coarse_[cell].cpu += cpu;
+    surveyed_[b] = survey.count(file_, bins_[b], {}, [&](uint64_t cell, const Survey::Cost& cost) {
+      coarse_[cell].work += cost.work;
       coarse_[cell].bin = b;
       coarse_[cell].weight = weight;
     });
@@ -110,23 +110,23 @@ double Pilot::survey_coarsely() {
   double max = 0, all = 0;
   cell_count_ = 0;
   for (const auto& [code, cell] : coarse_) {
-    cells_.push_back({code, cell.cpu});
-    max = std::max(max, cell.cpu);
-    all += cell.weight * cell.cpu;
+    cells_.push_back({code, cell.work});
+    max = std::max(max, cell.work);
+    all += cell.weight * cell.work;
     cell_count_ += cell.weight;
   }
   return all > 0 ? max / all : 0;
 }
 
-// Draws cells at equal intervals of their cumulative cost.
+// Draws cells at equal intervals of their cumulative work.
 void Pilot::draw() {
   double all = 0;
-  for (const auto& [code, cell] : coarse_) all += cell.weight * cell.cpu;
+  for (const auto& [code, cell] : coarse_) all += cell.weight * cell.work;
   const size_t count = std::clamp(size_t(kSampleShare * cell_count_), kMinSamples, kMaxSamples);
   const double interval = all / double(count);
   double before = 0, next = interval / 2;
   for (auto& [code, cell] : coarse_) {
-    before += cell.weight * cell.cpu;
+    before += cell.weight * cell.work;
     for (; before > next; next += interval) ++cell.draws;
   }
 }
@@ -146,18 +146,18 @@ Pilot::Sample Pilot::survey_sample(int level) const {
           const auto found = coarse_.find(cell);
           return found != coarse_.end() && found->second.draws > 0;
         },
-        [&](uint64_t cell, double cpu) { sample.cpu[cell] += cpu; });
+        [&](uint64_t cell, const Survey::Cost& cost) { sample.seconds[cell] += cost.seconds; });
   sample.found = survey.found();
   return sample;
 }
 
-// The mean ratio of costs at the grid's level and in the coarse survey. Since cells are drawn in
-// proportion to cost, it is also the ratio of the costs of all cells.
-double Pilot::growth() const {
+// The mean ratio of seconds at the grid's level to work in the coarse survey. Since cells are drawn
+// in proportion to work, it is also the ratio of the sums over all cells.
+double Pilot::measured_rate() const {
   double sum = 0, draws = 0;
-  for (const auto& [code, cpu] : fine_.cpu) {
+  for (const auto& [code, seconds] : fine_.seconds) {
     const CoarseCell& cell = coarse_.at(code);
-    sum += cell.draws * cpu / cell.cpu;
+    sum += cell.draws * seconds / cell.work;
     draws += cell.draws;
   }
   return draws > 0 ? sum / draws : 1;
@@ -166,7 +166,8 @@ double Pilot::growth() const {
 // The rate is that of the bins whose like were left out.
 void Pilot::add_other_bins() {
   double cost = 0, triangles = 0;
-  for (const auto& [code, cell] : coarse_) cost += cell.weight > 1 ? growth_ * cell.cpu : 0;
+  for (const auto& [code, cell] : coarse_)
+    cost += cell.weight > 1 ? seconds_per_work_ * cell.work : 0;
   for (size_t b = 0; b < bins_.size(); ++b)
     triangles += surveyed_[b] && weight(bins_[b], b) > 1 ? double(bins_[b].triangles) : 0;
   const double rate = triangles > 0 ? cost / triangles : kUnsurveyedTriangle;
@@ -201,7 +202,7 @@ std::vector<ShardWork> Pilot::works_of(const std::vector<CellRange>& shards) con
       if (weight(bin, number++) > 0 &&
           survey.count(
               file_, bin, [&](uint64_t cell) { return contains(cells, cell); },
-              [](uint64_t, double) {}))
+              [](uint64_t, const Survey::Cost&) {}))
         triangles += bin.triangles;
     }
     shard.found = fine_nodes(scaled(survey.found(), shard.triangles, triangles));

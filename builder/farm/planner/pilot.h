@@ -1,10 +1,11 @@
 // The pilot: estimates the cost of a bake, cell by cell, before it runs.
 //
 // A survey of the whole scene, a few levels coarser, takes a few per cent of the bake and shows how
-// work is distributed. Then a few cells, drawn with probability proportional to their coarse cost,
-// are surveyed at the grid's level. All costs grow by the mean ratio of these cells. The ratio must
-// be measured: when the resolution doubles, a scan costs 1.3 times as much while its triangles are
-// smaller than voxels, and more than 3 times when they are larger.
+// work is distributed. Then a few cells, drawn with probability proportional to their coarse work,
+// are surveyed at the grid's level and timed. All cells cost the mean ratio of these. It must be
+// measured: when the resolution doubles, a scan costs 1.3 times as much while its triangles are
+// smaller than voxels, and more than 3 times when they are larger; and machines differ. So two
+// plans of a scene are cut alike, but predict other seconds.
 //
 // Of scenes of tens of millions of triangles, only every n-th bin is surveyed, and all with few
 // triangles, which may be large ones. A triangle of any other bin costs the mean of the surveyed:
@@ -38,7 +39,7 @@ class Pilot {
 
   int cell_level() const { return cell_level_; }
   // Non-empty cells; an estimate if not all bins were surveyed.
-  size_t cell_count() const { return size_t(cell_count_); }
+  uint64_t cell_count() const { return uint64_t(cell_count_); }
   // CPU seconds of voxelizing each non-empty cell at the grid's level, in Morton order. A bin that
   // was not surveyed counts as its first cell.
   const std::vector<CellCost>& cells() const { return cells_; }
@@ -51,13 +52,13 @@ class Pilot {
 
  private:
   struct CoarseCell {
-    double cpu = 0;
+    double work = 0;
     size_t bin = 0;
     double weight = 1;  // of the bin
     int draws = 0;
   };
   struct Sample {
-    std::map<uint64_t, double> cpu;  // by cell
+    std::map<uint64_t, double> seconds;  // measured, by cell
     NodeCounts found;
   };
 
@@ -66,7 +67,7 @@ class Pilot {
   double survey_coarsely();
   void draw();
   Sample survey_sample(int level) const;
-  double growth() const;
+  double measured_rate() const;
   void add_other_bins();
   NodeCounts fine_nodes(const NodeCounts& coarse) const;
 
@@ -83,8 +84,8 @@ class Pilot {
   std::vector<bool> surveyed_;             // by bin
   double cell_count_ = 0;
   NodeCounts coarse_found_;
-  double growth_ = 1;  // of costs, from the coarse survey to the grid's level
-  Sample few_, fine_;  // the drawn cells in the coarse survey and at the grid's level
+  double seconds_per_work_ = 1;  // at the grid's level, of work in the coarse survey
+  Sample few_, fine_;            // the drawn cells in the coarse survey and at the grid's level
   std::vector<CellCost> cells_;
 };
 

@@ -12,15 +12,12 @@
 namespace svdag {
 namespace {
 
-// Seconds: geometric means of what tests/bench/plan.py --calibrate printed in three hours, in which
-// the machine's speed differed by 1.8; kSpilled and kReadAlone in one of them.
-constexpr double kStart = 0.0149;        // start of a process
-constexpr double kTriangle = 875.6e-9;   // read, snapped or from a bin, and prepared
+// Seconds, as tests/bench/plan.py --calibrate printed them.
+constexpr double kStart = 0.0127;        // start of a process
+constexpr double kTriangle = 74.56e-9;   // read and snapped, or read from a bin
 constexpr double kSpilled = 95.18e-9;    // more, if it is spilled
-constexpr double kDivided = 552.5e-9;    // a cube divided
-constexpr double kComputed = 181.3e-9;   // a node computed for the plane memo
-constexpr double kFound = 222.4e-9;      // a unique node: numbered, sorted, written
-constexpr double kMergeRead = 145.8e-9;  // a node that a merge reads
+constexpr double kFound = 180.1e-9;      // a unique node: numbered, sorted, written
+constexpr double kMergeRead = 109e-9;    // a node that a merge reads
 constexpr double kNodeInFile = 22.4;     // bytes of a node in a .svdag
 constexpr double kReadAlone = 147.5e-9;  // of the seconds of a triangle, those of one thread
 // Of the colour pass, fitted by hand to nine textured scenes: right within a factor of two.
@@ -30,7 +27,8 @@ constexpr double kPair = 400e-9;       // a triangle and a cube
 constexpr double kCube = 450e-9;       // spilled, encoded, written
 constexpr double kColourInFile = 0.5;  // bytes of a cube's colours at the default error
 
-constexpr double kProcess = 25e6;  // bytes of memory that no input needs
+constexpr double kComputed = 0.33;  // work of a node computed for the plane memo, in cubes
+constexpr double kProcess = 25e6;   // bytes of memory that no input needs
 constexpr uint64_t kMiB = uint64_t(1) << 20;
 
 uint64_t budget_for(double need, const StepLimits& limits) {
@@ -46,8 +44,8 @@ double freeze_bytes(const NodeCounts& found) {
 
 }  // namespace
 
-double descent_cpu(double divided, double computed) {
-  return kDivided * divided + kComputed * computed;
+double descent_work(double divided, double computed) {
+  return divided + kComputed * computed;
 }
 
 double cpu_of_bake(double cost, const NodeCounts& found, uint64_t triangles, bool spilled) {

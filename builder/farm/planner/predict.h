@@ -1,12 +1,12 @@
 // Cost model: predicts seconds, memory and disk from counted work.
 //
-// The model is linear in triangles, cubes divided, nodes computed for the plane memo and nodes
-// found (builder/farm/planner/survey.h). Its constants were fitted to bakes of generated scenes on
-// one machine (tests/bench/plan.py --calibrate repeats this, and validates them on other scenes).
-// Seconds are those of that machine; the ratios between shards hold on any machine. The memory of
-// a step is a limit, not an estimate: it stays within it. Rejected: a term for the voxels that
-// triangles decide (11 instead of 14 % off, but samples drawn by it predict the bytes of shards
-// worse).
+// CPU seconds are those of voxelizing, which a sample of cells takes on this machine
+// (builder/farm/planner/pilot.h), and linear in triangles and nodes found. These constants were
+// fitted to bakes of generated scenes (tests/bench/plan.py --calibrate repeats this, and validates
+// them on other scenes). The memory of a step is a limit, not an estimate: it stays within it.
+// Rejected: fixed seconds for a cube divided and for a node computed for the plane memo (0.70 of
+// the CPU seconds of a scan of a billion triangles, 0.6 to 1.6 of those of hair and boxes, and the
+// speed of one machine differs by 1.8 between hours); a term for the voxels that triangles decide.
 #pragma once
 
 #include "builder/farm/plan/plan.h"
@@ -26,8 +26,8 @@ struct NodeCounts {
   double run_bytes() const { return 32 * nodes + 8 * bricks; }
 };
 
-// CPU seconds of voxelizing: `divided` cubes, and `computed` nodes for the plane memo.
-double descent_cpu(double divided, double computed);
+// The work of voxelizing `divided` cubes, and `computed` nodes for the plane memo, in cubes.
+double descent_work(double divided, double computed);
 
 // Limits of the resources of a step.
 struct StepLimits {

@@ -70,7 +70,7 @@ void print_plan(const Plan& plan, bool steps) {
               plan.folder.empty() ? "" : (plan.folder + ": ").c_str(),
               format_resolution(uint64_t(plan.grid.resolution())).c_str(),
               format_count(plan.counts.scene.triangles, "triangle").c_str(),
-              format_count(plan.bins.size(), "bin").c_str(), plan.one_bake_cpu);
+              format_count(plan.bins.size(), "bin").c_str(), plan.one_bake.cpu);
   print_totals(shards.steps == 1 ? "shard" : "shards", shards);
   print_totals(merges.steps == 1 ? "merge" : "merges", merges);
   if (plan.colours) print_totals("colour pass", colours);
@@ -81,7 +81,7 @@ void print_plan(const Plan& plan, bool steps) {
 // With colours, the file of the bake is in scratch until they are in.
 Prediction bake_of(const Plan& plan) {
   Prediction p = plan.steps.front().predicted;
-  p.cpu = plan.one_bake_cpu;
+  p.cpu = plan.one_bake.cpu;
   p.seconds = seconds_of_bake(p.cpu, plan.counts.scene.triangles, plan.steps.front().threads);
   const Prediction& last = plan.steps.back().predicted;
   p.output = last.output;
@@ -98,14 +98,14 @@ void print_bake_json(const Plan& plan, const FreeDisk& disk) {
   const Prediction p = bake_of(plan);
   const auto whole = [](uint64_t n) { return static_cast<unsigned long long>(n); };
   std::printf(
-      "{\"resolution\": %llu, \"triangles\": %llu, \"cells\": %zu, \"threads\": %zu, "
+      "{\"resolution\": %llu, \"triangles\": %llu, \"cells\": %llu, \"threads\": %zu, "
       "\"cpu_seconds\": %.3f, \"seconds\": %.3f, \"budget_bytes\": %llu, \"memory_bytes\": %llu, "
       "\"expected_memory_bytes\": %llu, "
       "\"output_bytes\": %llu, \"output_free_bytes\": %llu, \"scratch_bytes\": %llu, "
       "\"scratch_free_bytes\": %llu}\n",
-      whole(uint64_t(plan.grid.resolution())), whole(plan.counts.scene.triangles), plan.cells,
-      step.threads, p.cpu, p.seconds, whole(p.budget), whole(p.memory),
-      whole(std::min(plan.one_bake_memory, p.memory)), whole(p.output), whole(disk.output_bytes),
+      whole(uint64_t(plan.grid.resolution())), whole(plan.counts.scene.triangles),
+      whole(plan.one_bake.cells), step.threads, p.cpu, p.seconds, whole(p.budget), whole(p.memory),
+      whole(std::min(plan.one_bake.memory, p.memory)), whole(p.output), whole(disk.output_bytes),
       whole(p.scratch), whole(disk.scratch_bytes));
 }
 
@@ -114,7 +114,7 @@ void print_bake(const Plan& plan, const FreeDisk& disk, bool default_memory) {
   std::printf("%s: %s^3, %s in %s\n", printable(disk.output).c_str(),
               format_resolution(uint64_t(plan.grid.resolution())).c_str(),
               format_count(plan.counts.scene.triangles, "triangle").c_str(),
-              format_count(plan.cells, "cell").c_str());
+              format_count(plan.one_bake.cells, "cell").c_str());
   std::printf("  about %.2f CPU seconds, %.2f s on %s\n", p.cpu, p.seconds,
               format_count(plan.steps.front().threads, "thread").c_str());
   std::printf("  a file of about %s, scratch of about %s\n", format_bytes(p.output).c_str(),
@@ -126,7 +126,7 @@ void print_bake(const Plan& plan, const FreeDisk& disk, bool default_memory) {
     std::printf("  not enough disk space for scratch: %s free (choose another with --scratch)\n",
                 format_bytes(disk.scratch_bytes).c_str());
   std::printf("  memory of about %s, at most %s with --memory %lluM%s\n",
-              format_bytes(std::min(plan.one_bake_memory, p.memory)).c_str(),
+              format_bytes(std::min(plan.one_bake.memory, p.memory)).c_str(),
               format_bytes(p.memory).c_str(), static_cast<unsigned long long>(p.budget >> 20),
               default_memory ? " (not given: half of the machine's may be used)" : "");
 }

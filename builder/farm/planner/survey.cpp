@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <numeric>
 #include <utility>
 
@@ -24,6 +25,13 @@ LatticeTriangle shifted(LatticeTriangle triangle, int shift) {
     for (int a = 0; a < 3; ++a) v[a] >>= shift;
   }
   return triangle;
+}
+
+// CPU time of this thread.
+double thread_seconds() {
+  timespec time;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
 }
 
 NodeCounts counts_of(const NodeTable& table) {
@@ -109,10 +117,10 @@ Survey::Survey(const Grid& grid, int level, int cell_level, const SurveyConfig& 
   SVDAG_ASSERT(level <= grid.levels && cell_level <= level - 2);
 }
 
-double Survey::cpu() const {
+double Survey::work() const {
   const DescentCounts& counts = descent_.counts();
-  return descent_cpu(std::accumulate(counts.divided.begin(), counts.divided.end(), 0.0),
-                     double(counts.memo.computed));
+  return descent_work(std::accumulate(counts.divided.begin(), counts.divided.end(), 0.0),
+                      double(counts.memo.computed));
 }
 
 bool Survey::count(SpillFile* file, const TriangleBin& bin, const CellFilter& filter,
@@ -139,9 +147,9 @@ bool Survey::count(SpillFile* file, const TriangleBin& bin, const CellFilter& fi
   for (const Cube& cell : tree.occupied_cells()) {
     const uint64_t code = morton(cell.coordinate);
     if (filter && !filter(code)) continue;
-    const double before = cpu();
+    const double before = work(), begin = thread_seconds();
     descent_.run(cell, cursor.list(cell));
-    visit(code, cpu() - before);
+    visit(code, {work() - before, thread_seconds() - begin});
   }
   return true;
 }

@@ -26,7 +26,12 @@ struct SurveyConfig {
 class Survey {
  public:
   using CellFilter = std::function<bool(uint64_t cell)>;
-  using Visit = std::function<void(uint64_t cell, double cpu)>;
+  // Of voxelizing a cell.
+  struct Cost {
+    double work;     // descent_work()
+    double seconds;  // CPU time that the survey took
+  };
+  using Visit = std::function<void(uint64_t cell, const Cost& cost)>;
 
   // The voxels of the survey are cubes of octree level `level` of the grid; cells, which are
   // counted separately, of `cell_level`, at most level - 2.
@@ -34,15 +39,14 @@ class Survey {
          MemoryBudget* budget);
   Survey(const Survey&) = delete;
 
-  // Counts the cells of `bin` that pass `filter` (an empty filter passes all), in Morton order;
-  // `visit` gets the CPU seconds of voxelizing each. Returns false if the bin has too many
-  // triangles.
+  // Counts the cells of `bin` that pass `filter` (an empty filter passes all), in Morton order.
+  // Returns false if the bin has too many triangles.
   bool count(SpillFile* file, const TriangleBin& bin, const CellFilter& filter, const Visit& visit);
   // Unique nodes so far.
   NodeCounts found();
 
  private:
-  double cpu() const;
+  double work() const;
 
   Grid fine_;
   Grid grid_;  // `fine_` at the survey's level

@@ -43,20 +43,25 @@ TEST_F(Pilots, PredictNodesOfATriangleSoup) {
   judge(random_soup(2000, 0.02, 3), 1.4);
 }
 
-// A coarse estimate: it counts the process as well, and two workers' tables may hold nodes twice.
-TEST_F(Pilots, ExpectTheMemoryOfABake) {
+// Memory: it counts the process as well, and two workers' tables may hold nodes twice. Time: both
+// are of this machine.
+TEST_F(Pilots, PredictTimeAndMemoryOfABake) {
   TempFolder folder;
   const std::string scene = folder.file("scene.stl");
   write_stl(scene, bumpy_sphere(60));
-  for (const uint64_t megabytes : {512, 96}) {  // the second is too small for the nodes
-    PlanConfig config = plan_config(scene, 13, "", 1);
-    config.build.memory = megabytes << 20;
+  for (const uint64_t megabytes : {512, 80}) {  // the second is too small for the nodes
+    PlanConfig config = plan_config(scene, 12, "", 1);
+    config.build.memory = megabytes * kMiB;
     config.build.output = folder.file("scene.svdag");
-    const uint64_t expected = plan_of(config).one_bake_memory;
-    const uint64_t counted = bake(config.build, 2).peak_counted;
-    std::printf("DBG %zu %zu\n", size_t(expected), size_t(counted));
-    EXPECT_GT(expected, counted / 2) << megabytes;
-    EXPECT_LT(expected, counted * 2) << megabytes;
+    const OneBake predicted = plan_of(config).one_bake;
+    const double begin = cpu_seconds();
+    const BuildReport report = bake(config.build, 2);
+    const double cpu = cpu_seconds() - begin;
+    EXPECT_GT(predicted.memory, report.peak_counted / 2) << megabytes;
+    EXPECT_LT(predicted.memory, report.peak_counted * 2 + 64 * kMiB) << megabytes;
+    EXPECT_GT(predicted.cpu, cpu / 3) << megabytes;
+    EXPECT_LT(predicted.cpu, cpu * 3) << megabytes;
+    std::printf("DBG %zu %zu %f %f\n", size_t(predicted.memory), size_t(report.peak_counted), predicted.cpu, cpu);
   }
 }
 

@@ -44,8 +44,9 @@ class SurveyTest : public testing::Test {
     SurveyConfig config;
     config.descent.plane_memo = config.descent.patches = false;
     Survey survey(grid_, kLevel, 4, config, &budget_);
-    EXPECT_TRUE(survey.count(scratch_.triangles(), bin, filter,
-                             [&](uint64_t cell, double cpu) { costs[cell] = cpu; }));
+    EXPECT_TRUE(
+        survey.count(scratch_.triangles(), bin, filter,
+                     [&](uint64_t cell, const Survey::Cost& cost) { costs[cell] = cost.work; }));
     const NodeCounts found = survey.found();
     costs[~uint64_t(0)] = found.nodes + found.bricks;
     return costs;
