@@ -23,7 +23,7 @@ constexpr uint64_t kLight = 8;       // a bin with less than a mean bin's triang
 constexpr double kRepetition = 0.9;  // the exponent of unique nodes
 // Seconds per triangle of a bin too heavy to survey, if no others are left out (--calibrate of
 // tests/bench/plan.py).
-constexpr double kUnsurveyedTriangle = 6.36e-6;
+constexpr double kUnsurveyedTriangle = 6.07e-6;
 
 // Unique nodes at the grid's level, if `coarse` were found by the coarse survey.
 double extrapolate(double coarse, double sample_coarse, double sample_fine) {
@@ -72,8 +72,8 @@ Pilot::Pilot(const Grid& grid, const std::vector<TriangleBin>& bins, SpillFile* 
   draw();
   few_ = survey_sample(level_);
   fine_ = survey_sample(grid.levels);
-  seconds_per_work_ = measured_rate();
-  for (CellCost& cell : cells_) cell.cost *= seconds_per_work_;
+  seconds_per_share_ = measured_rate();
+  for (CellCost& cell : cells_) cell.cost *= seconds_per_share_;
   add_other_bins();
 }
 
@@ -91,6 +91,9 @@ double Pilot::weight(const TriangleBin& bin, size_t number) const {
 
 // Returns the share of the most expensive cell.
 double Pilot::survey_coarsely() {
+  // A triangle in a cell costs as much as a cube at the grid's level, of which a surface meets 4
+  // times as many per level.
+  const double of_triangle = std::ldexp(1.0, -2 * (grid_.levels - level_));
   Survey survey = this->survey(level_);
   coarse_.clear();
   cells_.clear();
@@ -101,29 +104,29 @@ double Pilot::survey_coarsely() {
     if (weight == 0) continue;
     surveyed_[b] = survey.count(file_, bins_[b], {}, [&](uint64_t cell, const Survey::Cost& cost) {
       coarse_[cell].work += cost.work;
+      coarse_[cell].share += cost.work + of_triangle * cost.triangles;
       coarse_[cell].bin = b;
       coarse_[cell].weight = weight;
     });
     triangles += surveyed_[b] ? bins_[b].triangles : 0;
   }
   coarse_found_ = scaled(survey.found(), triangles_of(bins_), triangles);
-  double max = 0, all = 0;
-  cell_count_ = 0;
+  double max = 0;
+  work_ = shares_ = cell_count_ = 0;
   for (const auto& [code, cell] : coarse_) {
-    cells_.push_back({code, cell.work});
-    max = std::max(max, cell.work);
-    all += cell.weight * cell.work;
+    cells_.push_back({code, cell.share});
+    max = std::max(max, cell.share);
+    work_ += cell.weight * cell.work;
+    shares_ += cell.weight * cell.share;
     cell_count_ += cell.weight;
   }
-  return all > 0 ? max / all : 0;
+  return shares_ > 0 ? max / shares_ : 0;
 }
 
 // Draws cells at equal intervals of their cumulative work.
 void Pilot::draw() {
-  double all = 0;
-  for (const auto& [code, cell] : coarse_) all += cell.weight * cell.work;
   const size_t count = std::clamp(size_t(kSampleShare * cell_count_), kMinSamples, kMaxSamples);
-  const double interval = all / double(count);
+  const double interval = work_ / double(count);
   double before = 0, next = interval / 2;
   for (auto& [code, cell] : coarse_) {
     before += cell.weight * cell.work;
@@ -151,8 +154,8 @@ Pilot::Sample Pilot::survey_sample(int level) const {
   return sample;
 }
 
-// The mean ratio of seconds at the grid's level to work in the coarse survey. Since cells are drawn
-// in proportion to work, it is also the ratio of the sums over all cells.
+// Since cells are drawn in proportion to work, the mean ratio of their seconds to it is that of all
+// cells.
 double Pilot::measured_rate() const {
   double sum = 0, draws = 0;
   for (const auto& [code, seconds] : fine_.seconds) {
@@ -160,14 +163,14 @@ double Pilot::measured_rate() const {
     sum += cell.draws * seconds / cell.work;
     draws += cell.draws;
   }
-  return draws > 0 ? sum / draws : 1;
+  return draws > 0 ? sum / draws * work_ / shares_ : 1;
 }
 
 // The rate is that of the bins whose like were left out.
 void Pilot::add_other_bins() {
   double cost = 0, triangles = 0;
   for (const auto& [code, cell] : coarse_)
-    cost += cell.weight > 1 ? seconds_per_work_ * cell.work : 0;
+    cost += cell.weight > 1 ? seconds_per_share_ * cell.share : 0;
   for (size_t b = 0; b < bins_.size(); ++b)
     triangles += surveyed_[b] && weight(bins_[b], b) > 1 ? double(bins_[b].triangles) : 0;
   const double rate = triangles > 0 ? cost / triangles : kUnsurveyedTriangle;

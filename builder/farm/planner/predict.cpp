@@ -13,13 +13,13 @@ namespace svdag {
 namespace {
 
 // Seconds, as tests/bench/plan.py --calibrate printed them.
-constexpr double kStart = 0.0127;        // start of a process
-constexpr double kTriangle = 74.56e-9;   // read and snapped, or read from a bin
+constexpr double kStart = 0.0101;        // start of a process
+constexpr double kTriangle = 128e-9;     // read and snapped, or from a bin
 constexpr double kSpilled = 95.18e-9;    // more, if it is spilled
-constexpr double kFound = 180.1e-9;      // a unique node: numbered, sorted, written
-constexpr double kMergeRead = 109e-9;    // a node that a merge reads
+constexpr double kFound = 173.7e-9;      // a unique node: numbered, sorted, written
+constexpr double kMergeRead = 104.1e-9;  // a node that a merge reads
 constexpr double kNodeInFile = 22.4;     // bytes of a node in a .svdag
-constexpr double kReadAlone = 147.5e-9;  // of the seconds of a triangle, those of one thread
+constexpr double kReadAlone = 147.5e-9;  // wall time of a triangle until it is in a bin
 // Of the colour pass, fitted by hand to nine textured scenes: right within a factor of two.
 constexpr double kPainted = 1200e-9;   // a triangle: read, snapped, prepared
 constexpr double kTexel = 60e-9;       // decoded, with its mip map

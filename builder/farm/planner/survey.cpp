@@ -143,8 +143,6 @@ bool Survey::count(SpillFile* file, const TriangleBin& bin, const CellFilter& fi
     if (tree.bytes(1) > config_.triangle_bytes) return false;
   }
   tree.seal();
-  // That of a cube at the grid's level, of which a surface meets 4 times as many per level.
-  const double of_triangle = std::ldexp(1.0, -2 * (fine_.levels - grid_.levels));
   CellCursor cursor(tree, config_.descent.overlap());
   for (const Cube& cell : tree.occupied_cells()) {
     const uint64_t code = morton(cell.coordinate);
@@ -152,7 +150,7 @@ bool Survey::count(SpillFile* file, const TriangleBin& bin, const CellFilter& fi
     const double before = work(), begin = thread_seconds();
     const TriangleList& list = cursor.list(cell);
     descent_.run(cell, list);
-    visit(code, {work() - before + of_triangle * double(list.size()), thread_seconds() - begin});
+    visit(code, {work() - before, double(list.size()), thread_seconds() - begin});
   }
   return true;
 }

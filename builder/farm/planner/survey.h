@@ -28,8 +28,9 @@ class Survey {
   using CellFilter = std::function<bool(uint64_t cell)>;
   // Of voxelizing a cell.
   struct Cost {
-    double work;     // descent_work()
-    double seconds;  // CPU time that the survey took
+    double work;       // descent_work()
+    double triangles;  // in the cell's list
+    double seconds;    // CPU time that the survey took
   };
   using Visit = std::function<void(uint64_t cell, const Cost& cost)>;
 

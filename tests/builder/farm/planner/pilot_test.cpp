@@ -61,7 +61,6 @@ TEST_F(Pilots, PredictTimeAndMemoryOfABake) {
     EXPECT_LT(predicted.memory, report.peak_counted * 2 + 64 * kMiB) << megabytes;
     EXPECT_GT(predicted.cpu, cpu / 3) << megabytes;
     EXPECT_LT(predicted.cpu, cpu * 3) << megabytes;
-    std::printf("DBG %zu %zu %f %f\n", size_t(predicted.memory), size_t(report.peak_counted), predicted.cpu, cpu);
   }
 }
 
