@@ -192,13 +192,17 @@ void CellCursor::enter(const Cube& cube, const CellTree::Node* node,
 }
 
 const TriangleList& CellCursor::list(const Cube& cube) {
-  prepare(path_to(ancestor(cube, tree_.cell_level())));
-  for (int level = tree_.cell_level(); level < cube.level; ++level) {
-    const Cube from = ancestor(cube, level), to = ancestor(cube, level + 1);
-    divide_list(list_, from, tree_.grid().levels, config_, &child_lists_);
-    list_ = child_lists_[morton(to.coordinate) & 7];
+  SVDAG_ASSERT(cube.level <= tree_.cell_level() + 1);
+  const Cube cell = ancestor(cube, tree_.cell_level());
+  if (prepared_ != cell) {
+    prepare(path_to(cell));
+    prepared_ = cell;
+    divided_ = false;
   }
-  return list_;
+  if (cube == cell) return list_;
+  if (!divided_) divide_list(list_, cell, tree_.grid().levels, config_, &child_lists_);
+  divided_ = true;
+  return child_lists_[cube.index_in_parent()];
 }
 
 const CellCursor::CursorLevel& CellCursor::path_to(const Cube& cell) {

@@ -14,6 +14,7 @@
 #include <bit>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "builder/octree/morton.h"
@@ -106,12 +107,13 @@ void CellTree::for_each_triangle(const Visit& visit) const {
 }
 
 // Computes the triangle lists of cells for a worker, one cell after the other. Consecutive cells in
-// Morton order share most of their path, so the divided lists along the path are reused.
+// Morton order share most of their path, so the divided lists along the path are reused. So are the
+// triangles of a heavy cell, whose children are baked one by one.
 class CellCursor {
  public:
   CellCursor(const CellTree& tree, const OverlapConfig& config);
 
-  // The list of `cube`, a cell or a cube in one, grouped by layer; valid until the next call.
+  // The list of `cube`, a cell or a child of one, grouped by layer; valid until another cell's.
   const TriangleList& list(const Cube& cube);
 
  private:
@@ -131,9 +133,11 @@ class CellCursor {
   OverlapConfig config_;
   std::vector<CursorLevel> path_;      // [k] is at level k
   int depth_;                          // path_[root level .. depth_] are valid
+  std::optional<Cube> prepared_;       // the cell of these:
   std::vector<TriangleSetup> setups_;  // of the triangles stored at the cell itself
   TriangleList list_;
-  std::array<TriangleList, 8> child_lists_;  // list_ divided, on the way to a cube in the cell
+  std::array<TriangleList, 8> child_lists_;  // list_ divided, if divided_
+  bool divided_ = false;
 };
 
 }  // namespace svdag

@@ -96,5 +96,34 @@ TEST(CellTree, FreesABakedOctantAndKeepsTheOthers) {
   EXPECT_EQ(cursor.list(cells[1]).size(), 500U);
 }
 
+// A worker meets some children of a cell, then those of another.
+TEST(CellTree, ListsOfChildrenDoNotDependOnTheCellsBefore) {
+  Grid grid;
+  grid.levels = 12;
+  grid.selection = grid.whole();
+  const int64_t side = grid.resolution() << grid.fraction();
+  MemoryBudget budget;
+  CellTree tree(grid, Cube(), 2, &budget);
+  for (int64_t i = 0; i < 2000; ++i)
+    tree.add(triangle_at(LatticePoint(i % 97 * (side / 100), i % 89 * (side / 90), i * 1000),
+                         side / 50));
+  tree.seal();
+  std::vector<Cube> cubes = tree.occupied_cells();
+  const std::vector<Cube> children = tree.occupied_cells(8);
+  cubes.insert(cubes.end(), children.begin(), children.end());
+  ASSERT_GT(cubes.back().level, tree.cell_level());
+  CellCursor cursor(tree, {});
+  for (size_t i = 0; i < 4 * cubes.size(); ++i) {
+    const Cube& cube = cubes[i * 7 % cubes.size() / (1 + i % 2)];
+    CellCursor fresh(tree, {});
+    const TriangleList &list = cursor.list(cube), &expected = fresh.list(cube);
+    ASSERT_EQ(list.size(), expected.size());
+    for (size_t k = 0; k < list.size(); ++k) {
+      EXPECT_EQ(list[k].edges, expected[k].edges);
+      EXPECT_EQ(list[k].triangle->triangle.v, expected[k].triangle->triangle.v);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace svdag
