@@ -3,7 +3,7 @@
 //
 // Notation: T triangles, N^3 voxels. Times are relative to the split of a scene. Voxelizing takes
 //
-//   2.8 N / sqrt(T)
+//   2.5 N / sqrt(T)
 //
 // of them: right within a factor of three for scans and hair. For walls it is up to ten times too
 // long, but beside it the split is nothing. Runs that are spilled were sorted while others were
@@ -41,7 +41,7 @@ inline PhaseShares phase_shares(const ExpectedWork& work) {
   const double voxelize =
       work.triangles == 0
           ? kUnknown
-          : 2.8 * std::sqrt(std::ldexp(1, 2 * work.levels) / double(work.triangles));
+          : 2.5 * std::sqrt(std::ldexp(1, 2 * work.levels) / double(work.triangles));
   const double times[] = {0.3 * reading,
                           reading,
                           voxelize,
