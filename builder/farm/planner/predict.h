@@ -4,9 +4,9 @@
 // (builder/farm/planner/pilot.h), and linear in triangles and nodes found. These constants were
 // fitted to bakes of generated scenes (tests/bench/plan.py --calibrate repeats this, and validates
 // them on other scenes). The memory of a step is a limit, not an estimate: it stays within it.
-// Rejected: fixed seconds for a cube divided and for a node computed for the plane memo (0.70 of
-// the CPU seconds of a scan of a billion triangles, 0.6 to 1.6 of those of hair and boxes, and the
-// speed of one machine differs by 1.8 between hours); a term for the voxels that triangles decide.
+// Rejected: fixed seconds for a cube divided and for a node computed for the plane memo (0.6 to 1.6
+// of the CPU seconds of hair and boxes, and one machine's speed differs by 1.8 between hours); a
+// term for the voxels that triangles decide.
 #pragma once
 
 #include "builder/farm/plan/plan.h"
