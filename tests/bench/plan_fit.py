@@ -1,9 +1,8 @@
 """Fits the constants of predictions (builder/farm/planner/predict.cpp) to measured bakes and steps.
 
 Seconds are what the pilot measured for voxelizing, and a linear function of counts, with the same constants for bakes,
-shards and merges. The fit minimizes the
-squared logarithms of measured / predicted, so short and long steps have the same weight, and so have twice and half of
-a time.
+shards and merges. The fit minimizes the squared logarithms of measured / predicted, so short and long steps have the
+same weight, and so have twice and half of a time.
 """
 import statistics
 

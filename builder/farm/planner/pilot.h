@@ -2,10 +2,11 @@
 //
 // A survey of the whole scene, a few levels coarser, takes a few per cent of the bake and shows how
 // work is distributed. Then a few cells, drawn with probability proportional to their coarse work,
-// are surveyed at the grid's level and timed. All cells cost the mean ratio of these, which is
-// measured: when the resolution doubles, a scan costs 1.3 times as much while its triangles are
-// smaller than voxels, and more than 3 times when they are larger; and machines differ. So two
-// plans of a scene are cut alike, but predict other seconds.
+// are surveyed at the grid's level and timed. Their mean ratio gives the cost of all, which cells
+// share by their work and their triangles. It is measured: when the resolution doubles, a scan
+// costs 1.3 times as much while its triangles are smaller than voxels, and more than 3 times when
+// they are larger; and machines differ. So two plans of a scene are cut alike, but predict other
+// seconds.
 //
 // Of scenes of tens of millions of triangles, only every n-th bin is surveyed, and all with few
 // triangles, which may be large ones. A triangle of any other bin costs the mean of the surveyed:

@@ -60,6 +60,10 @@ void print_steps(const Plan& plan) {
   }
 }
 
+uint64_t expected_memory(const Plan& plan, const Prediction& bake) {
+  return std::min(plan.one_bake.memory, bake.memory);
+}
+
 }  // namespace
 
 void print_plan(const Plan& plan, bool steps) {
@@ -105,8 +109,8 @@ void print_bake_json(const Plan& plan, const FreeDisk& disk) {
       "\"scratch_free_bytes\": %llu}\n",
       whole(uint64_t(plan.grid.resolution())), whole(plan.counts.scene.triangles),
       whole(plan.one_bake.cells), step.threads, p.cpu, p.seconds, whole(p.budget), whole(p.memory),
-      whole(std::min(plan.one_bake.memory, p.memory)), whole(p.output), whole(disk.output_bytes),
-      whole(p.scratch), whole(disk.scratch_bytes));
+      whole(expected_memory(plan, p)), whole(p.output), whole(disk.output_bytes), whole(p.scratch),
+      whole(disk.scratch_bytes));
 }
 
 void print_bake(const Plan& plan, const FreeDisk& disk, bool default_memory) {
@@ -126,8 +130,8 @@ void print_bake(const Plan& plan, const FreeDisk& disk, bool default_memory) {
     std::printf("  not enough disk space for scratch: %s free (choose another with --scratch)\n",
                 format_bytes(disk.scratch_bytes).c_str());
   std::printf("  memory of about %s, at most %s with --memory %lluM%s\n",
-              format_bytes(std::min(plan.one_bake.memory, p.memory)).c_str(),
-              format_bytes(p.memory).c_str(), static_cast<unsigned long long>(p.budget >> 20),
+              format_bytes(expected_memory(plan, p)).c_str(), format_bytes(p.memory).c_str(),
+              static_cast<unsigned long long>(p.budget >> 20),
               default_memory ? " (not given: half of the machine's may be used)" : "");
 }
 

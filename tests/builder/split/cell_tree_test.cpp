@@ -6,6 +6,8 @@
 
 #include <set>
 
+#include "tests/builder/reduce/reductions.h"
+
 namespace svdag {
 namespace {
 
@@ -30,9 +32,7 @@ uint64_t entries_on_path(const TriangleList& list, const Cube& cube, int levels)
 
 // Stacked sheets through the whole grid: a worker holds them at every level.
 TEST(CellTree, LargeTrianglesCountInTheListsOfEveryLevelAndWorker) {
-  Grid grid;
-  grid.levels = 12;
-  grid.selection = grid.whole();
+  const Grid grid = unit_grid(12);
   const int64_t side = grid.resolution() << grid.fraction();
   MemoryBudget budget;
   CellTree tree(grid, Cube(), 4, &budget);
@@ -57,9 +57,7 @@ LatticeTriangle triangle_at(LatticePoint corner, int64_t size) {
 
 // Near the middle a triangle is stored in up to eight octants, a large one at the root.
 TEST(CellTree, VisitsEachTriangleOnceThoughSeveralOctantsStoreIt) {
-  Grid grid;
-  grid.levels = 12;
-  grid.selection = grid.whole();
+  const Grid grid = unit_grid(12);
   const int64_t side = grid.resolution() << grid.fraction();
   MemoryBudget budget;
   CellTree tree(grid, Cube(), 4, &budget);
@@ -76,9 +74,7 @@ TEST(CellTree, VisitsEachTriangleOnceThoughSeveralOctantsStoreIt) {
 }
 
 TEST(CellTree, FreesABakedOctantAndKeepsTheOthers) {
-  Grid grid;
-  grid.levels = 12;
-  grid.selection = grid.whole();
+  const Grid grid = unit_grid(12);
   const int64_t side = grid.resolution() << grid.fraction();
   MemoryBudget budget;
   CellTree tree(grid, Cube(), 4, &budget);
@@ -98,9 +94,7 @@ TEST(CellTree, FreesABakedOctantAndKeepsTheOthers) {
 
 // A worker meets some children of a cell, then those of another.
 TEST(CellTree, ListsOfChildrenDoNotDependOnTheCellsBefore) {
-  Grid grid;
-  grid.levels = 12;
-  grid.selection = grid.whole();
+  const Grid grid = unit_grid(12);
   const int64_t side = grid.resolution() << grid.fraction();
   MemoryBudget budget;
   CellTree tree(grid, Cube(), 2, &budget);
